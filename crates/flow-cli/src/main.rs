@@ -1,0 +1,3 @@
+//! The `curveflow` command.
+
+fn main() {}

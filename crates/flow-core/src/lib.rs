@@ -1,0 +1,3 @@
+//! Gradient flows of energies of closed planar curves that carry embedded densities.
+
+pub mod run;

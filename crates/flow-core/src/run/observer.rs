@@ -1,0 +1,38 @@
+//! Who watches a run: observers read, never steer; they may ask it to stop.
+
+use std::ops::ControlFlow;
+
+/// Where a run stands after an accepted step.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress {
+    /// Simulated time.
+    pub time: f64,
+    /// Simulated time at which the run ends at the latest.
+    pub end: f64,
+    /// Accepted steps so far.
+    pub steps: u64,
+    /// Size of the last step.
+    pub step_size: f64,
+    /// Energy after the step.
+    pub energy: f64,
+    /// Dissipation −d𝓕/dt ≥ 0 after the step.
+    pub dissipation: f64,
+    /// Length of the curve after the step.
+    pub length: f64,
+}
+
+/// Watches a run.
+pub trait Observer {
+    /// Called after every accepted step; `Break` stops the run, which keeps what it has.
+    fn after_step(&mut self, progress: &Progress) -> ControlFlow<()>;
+}
+
+/// An observer that watches nothing.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Quiet;
+
+impl Observer for Quiet {
+    fn after_step(&mut self, _: &Progress) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}

@@ -1,0 +1,152 @@
+//! What a run leaves behind: frames, the log of accepted steps, counters and the reason why it stopped.
+
+/// One saved state. Fields hold one value per node, `n` of them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Frame {
+    /// Simulated time.
+    pub time: f64,
+    /// Energy 𝓕_h.
+    pub energy: f64,
+    /// Energy of each term, in the order of [`Record::energy_terms`].
+    pub energy_terms: Vec<f64>,
+    /// Dissipation −d𝓕/dt ≥ 0.
+    pub dissipation: f64,
+    /// 𝓕 − 𝓕₀ + ∫ dissipation dt: zero up to the error of the time integration.
+    pub energy_balance: f64,
+    /// Length |Γ|.
+    pub length: f64,
+    /// Enclosed (signed) area, positive on a counter-clockwise curve.
+    pub area: f64,
+    /// Mass ∫ρ dσ of each density, in the order of [`Record::densities`].
+    pub mass: Vec<f64>,
+    /// Gap |γ(1) − γ(0)| of the curve before projection, in units of length.
+    pub closure_defect: f64,
+    /// Curvature κ.
+    pub curvature: Vec<f64>,
+    /// Metric g = |∂γ/∂s|.
+    pub metric: Vec<f64>,
+    /// Position γ as (x, y).
+    pub position: Vec<[f64; 2]>,
+    /// Normal velocity V.
+    pub normal_velocity: Vec<f64>,
+    /// Densities, in the order of [`Record::densities`].
+    pub density: Vec<Vec<f64>>,
+}
+
+/// Attempts at a step that were thrown away, by cause.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Rejections {
+    /// The local error was above the tolerance.
+    pub error: u64,
+    /// The implicit solve did not converge.
+    pub solver: u64,
+    /// The energy rose by more than rounding.
+    pub energy_rise: u64,
+    /// A value was NaN or infinite.
+    pub not_finite: u64,
+}
+
+impl Rejections {
+    /// All rejections.
+    #[must_use]
+    pub fn total(&self) -> u64 {
+        self.error + self.solver + self.energy_rise + self.not_finite
+    }
+}
+
+/// One entry per accepted step.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StepLog {
+    /// Time at the end of the step.
+    pub time: Vec<f64>,
+    /// Size of the step.
+    pub size: Vec<f64>,
+    /// Energy at the end of the step.
+    pub energy: Vec<f64>,
+    /// Dissipation at the end of the step.
+    pub dissipation: Vec<f64>,
+    /// Order of the method in the step.
+    pub order: Vec<u8>,
+    /// Rejected attempts before this step was accepted, by cause.
+    pub rejections: Vec<Rejections>,
+}
+
+/// Work done and time spent.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Counters {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Rejected attempts, by cause.
+    pub rejections: Rejections,
+    /// Evaluations of the right-hand side −𝓚∇𝓕_h.
+    pub right_hand_sides: u64,
+    /// Products of the implicit operator −𝓚 Hess 𝓕_h with a vector.
+    pub jacobian_products: u64,
+    /// Newton iterations.
+    pub newton_iterations: u64,
+    /// Krylov iterations.
+    pub krylov_iterations: u64,
+    /// Factorisations of the preconditioner or of the implicit matrix.
+    pub factorisations: u64,
+    /// Solves with such a factorisation.
+    pub solves: u64,
+    /// Seconds spent in the time integration, without start-up and output.
+    pub integration_seconds: f64,
+}
+
+/// Why a run stopped.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StopReason {
+    /// The end time was reached.
+    EndTime,
+    /// The dissipation fell below the bound for equilibrium.
+    Equilibrium,
+    /// An observer asked for it (signal, Ctrl-C, limit).
+    Interrupted,
+    /// The integration failed; the last good state is the last frame. Holds the message.
+    Failed(String),
+}
+
+impl StopReason {
+    /// Short name, as written to files: `end-time`, `equilibrium`, `interrupted` or `failed`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::EndTime => "end-time",
+            Self::Equilibrium => "equilibrium",
+            Self::Interrupted => "interrupted",
+            Self::Failed(_) => "failed",
+        }
+    }
+}
+
+/// A finished (or interrupted) run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Record {
+    /// Title of the scene.
+    pub title: String,
+    /// The scene file as given, verbatim (after `--set` changes, if any).
+    pub scene: String,
+    /// The scene as resolved: TOML with every default and automatic choice filled in.
+    pub resolved_scene: String,
+    /// Names of the energy terms.
+    pub energy_terms: Vec<String>,
+    /// Names of the densities.
+    pub densities: Vec<String>,
+    /// Saved states, in time order; the first is the initial state, the last the final one.
+    pub frames: Vec<Frame>,
+    /// The log of accepted steps.
+    pub steps: StepLog,
+    /// Work done and time spent.
+    pub counters: Counters,
+    /// Why the run stopped.
+    pub stop_reason: StopReason,
+}
+
+impl Record {
+    /// Number of nodes.
+    #[must_use]
+    pub fn nodes(&self) -> usize {
+        self.frames.last().map_or(0, |frame| frame.curvature.len())
+    }
+}
