@@ -1,7 +1,10 @@
 //! From a scene to a finished run.
 
+mod membrane;
 mod observer;
 mod record;
 
 pub use observer::{Observer, Progress, Quiet};
-pub use record::{Counters, Frame, Record, Rejections, StepLog, StopReason};
+pub use crate::integrator::{Counters, Rejections};
+pub use membrane::{ANGLE, CENTRE, DISSIPATED, Membrane};
+pub use record::{Frame, Record, StepLog, StopReason};

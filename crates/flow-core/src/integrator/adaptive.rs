@@ -1,0 +1,170 @@
+//! The step loop with its guards: finite values, falling energy, step sizes above rounding.
+
+use super::{Counters, Finish, INTEGRALS, Problem, Rejection, Rejections, Stepper};
+
+/// Settings of the loop.
+#[derive(Clone, Copy, Debug)]
+pub struct AdaptiveOptions {
+    /// End of the integration.
+    pub end: f64,
+    /// Most accepted steps.
+    pub most_steps: u64,
+}
+
+/// Why the time integration stopped before its end.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+#[allow(missing_docs)] // each message names its fields
+pub enum IntegrationError {
+    /// The step size fell to the rounding of the time.
+    #[error(
+        "the step size fell to {step:.3e} at t = {time:.6e}, the rounding of the time ({rejections} attempts \
+         rejected in a row, the last because {}); the flow may end here (a curve shrinking to a point, an \
+         ill-posed energy), or the tolerance asks for more than double precision: try a larger tolerance or \
+         more nodes", reason(.cause)
+    )]
+    StepUnderflow { time: f64, step: f64, rejections: u64, cause: Rejection },
+    /// The allowed number of steps is used up.
+    #[error("{steps} steps were taken up to t = {time:.6e}, the most allowed; raise time.max_steps")]
+    TooManySteps { time: f64, steps: u64 },
+    /// The initial state cannot be evaluated.
+    #[error(
+        "the energy or its gradient is not finite at the initial state; check the expressions of the scene \
+         on the range of its initial curvature and densities"
+    )]
+    InitialStateNotFinite,
+}
+
+#[cold]
+fn reason(cause: &Rejection) -> &'static str {
+    match cause {
+        Rejection::Error => "the local error was too large",
+        Rejection::Solver => "the implicit solve did not converge",
+        Rejection::EnergyRise => "the energy rose",
+        Rejection::NotFinite => "a value was not finite or the curve did not close",
+    }
+}
+
+/// What one accepted step did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepReport {
+    /// Time at its end.
+    pub time: f64,
+    /// Its size.
+    pub size: f64,
+    /// Order of the method.
+    pub order: usize,
+    /// Energy at its end.
+    pub energy: f64,
+    /// Dissipation at its end.
+    pub dissipation: f64,
+    /// Attempts rejected before it.
+    pub rejections: Rejections,
+}
+
+/// The loop around a stepper.
+#[derive(Debug)]
+pub struct Adaptive<S> {
+    stepper: S,
+    options: AdaptiveOptions,
+    energy: f64,
+    counters: Counters,
+}
+
+/// Part of the energy by which rounding may raise it in one step.
+const ENERGY_ROUNDING: f64 = 1e-13;
+/// The step size must stay above this many units in the last place of the time.
+const LEAST_STEP_ULPS: f64 = 16.0;
+
+impl<S: Stepper> Adaptive<S> {
+    /// A loop from the state of `stepper`, whose energy is `energy`.
+    #[must_use]
+    pub fn new(stepper: S, options: AdaptiveOptions, energy: f64, counters: Counters) -> Self {
+        Self { stepper, options, energy, counters }
+    }
+
+    /// The stepper.
+    #[must_use]
+    pub fn stepper(&self) -> &S {
+        &self.stepper
+    }
+
+    /// Work so far.
+    #[must_use]
+    pub fn counters(&self) -> &Counters {
+        &self.counters
+    }
+
+    /// The integrals carried along.
+    #[must_use]
+    pub fn integrals(&self) -> [f64; INTEGRALS] {
+        self.stepper.integrals()
+    }
+
+    /// Takes one step, trying again until one is accepted.
+    ///
+    /// # Errors
+    /// [`IntegrationError`]; the last accepted state stays.
+    pub fn step(&mut self, problem: &mut dyn Problem) -> Result<StepReport, IntegrationError> {
+        let start = self.stepper.time();
+        if self.counters.steps >= self.options.most_steps {
+            return Err(IntegrationError::TooManySteps { time: start, steps: self.counters.steps });
+        }
+        let mut rejections = Rejections::default();
+        loop {
+            self.stepper.limit_step_size(self.remaining(start));
+            let size = self.stepper.step_size();
+            match self.attempt(problem) {
+                Ok((energy, dissipation)) => {
+                    self.energy = energy;
+                    self.counters.steps += 1;
+                    return Ok(StepReport {
+                        time: self.stepper.time(),
+                        size,
+                        order: self.stepper.order(),
+                        energy,
+                        dissipation,
+                        rejections,
+                    });
+                }
+                Err(cause) => {
+                    rejections.count(cause);
+                    self.counters.rejections.count(cause);
+                    let step = self.stepper.step_size();
+                    if step < LEAST_STEP_ULPS * (start.abs() * f64::EPSILON).max(f64::MIN_POSITIVE) {
+                        let rejections = rejections.total();
+                        return Err(IntegrationError::StepUnderflow { time: start, step, rejections, cause });
+                    }
+                }
+            }
+        }
+    }
+
+    /// Largest useful step: to the end, or half of the way if the rest would be a sliver.
+    fn remaining(&self, start: f64) -> f64 {
+        let rest = self.options.end - start;
+        let step = self.stepper.step_size();
+        if step < rest && 2.0 * step > rest { 0.5 * rest } else { rest }
+    }
+
+    fn attempt(&mut self, problem: &mut dyn Problem) -> Result<(f64, f64), Rejection> {
+        self.stepper.attempt(problem, &mut self.counters)?;
+        let time = self.stepper.time() + self.stepper.step_size();
+        self.counters.right_hand_sides += 1;
+        match problem.finish(time, self.stepper.candidate()) {
+            Finish::NotFinite => {
+                self.stepper.refuse();
+                Err(Rejection::NotFinite)
+            }
+            Finish::Good { energy, .. } if energy > self.energy + ENERGY_ROUNDING * self.energy.abs() => {
+                self.stepper.refuse();
+                Err(Rejection::EnergyRise)
+            }
+            Finish::Good { energy, dissipation, integral_rates } => {
+                self.stepper.accept(integral_rates);
+                problem.accepted(time, self.stepper.integrals());
+                Ok((energy, dissipation))
+            }
+        }
+    }
+}

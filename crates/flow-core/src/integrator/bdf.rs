@@ -1,0 +1,282 @@
+//! Backward differentiation formulas of order 1 to 5 with variable steps and fixed leading coefficient.
+//!
+//! The predictor is the polynomial through the last k + 1 states; the corrector agrees with it at
+//! t − h … t − kh, which gives y = ỹ + (h/α)(f(y) − ỹ′) with α = 1 + ½ + … + 1/k. See `THEORY.md`, eq. (I5);
+//! Brenan, Campbell & Petzold, Numerical Solution of Initial-Value Problems in DAEs (1996), chapter 5.
+
+use super::error_norm::ErrorNorm;
+use super::history::{History, MOST_POINTS, Weights, lagrange};
+use super::newton::{NewtonKrylov, NewtonOutcome};
+use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
+
+const HIGHEST_ORDER: usize = 5;
+/// Newton's method is solved to this part of the tolerance.
+const NEWTON_SHARE: f64 = 0.1;
+/// Safety factors on the error of order k − 1, k, k + 1: a change of order must pay.
+const BIAS: [f64; 3] = [6.0, 6.0, 10.0];
+/// Growth below this factor is not worth a new step size.
+const LEAST_GROWTH: f64 = 1.2;
+const MOST_GROWTH: f64 = 2.5;
+const FIRST_GROWTH: f64 = 1e4;
+
+/// The method with its state.
+#[derive(Clone, Debug)]
+pub struct Bdf {
+    history: History,
+    integrals: History,
+    integral_rates: [f64; INTEGRALS],
+    norm: ErrorNorm,
+    newton: NewtonKrylov,
+    tolerance: f64,
+    order: usize,
+    last_order: usize,
+    step: f64,
+    steps_at_order: usize,
+    accepted: u64,
+    failures: u32,
+    predicted: Vec<f64>,
+    constant: Vec<f64>,
+    candidate: Vec<f64>,
+    difference: Vec<f64>,
+    candidate_error: f64,
+}
+
+impl Bdf {
+    /// Starts at `y` and time 0 with local errors below `tolerance` in the relative norm.
+    pub fn new(
+        problem: &mut dyn Problem,
+        y: &[f64],
+        integral_rates: [f64; INTEGRALS],
+        tolerance: f64,
+        counters: &mut Counters,
+    ) -> Self {
+        let size = y.len();
+        let mut norm = ErrorNorm::new(problem);
+        norm.rescale(problem, y);
+        let mut rate = vec![0.0; size];
+        problem.rate(y, &mut rate);
+        counters.right_hand_sides += 1;
+        // The first step moves the state by a small part of the tolerance's root: order 1 has error O(h²).
+        let step = 0.1 * tolerance.sqrt() / norm.norm(&rate).max(1e-280);
+        let mut history = History::new(size);
+        let before: Vec<f64> = y.iter().zip(&rate).map(|(y, rate)| y - step * rate).collect();
+        history.push(-step, &before);
+        history.push(0.0, y);
+        let mut integrals = History::new(INTEGRALS);
+        integrals.push(-step, &integral_rates.map(|rate| -step * rate));
+        integrals.push(0.0, &[0.0; INTEGRALS]);
+        Self {
+            history,
+            integrals,
+            integral_rates,
+            norm,
+            newton: NewtonKrylov::new(size),
+            tolerance,
+            order: 1,
+            last_order: 1,
+            step,
+            steps_at_order: 0,
+            accepted: 0,
+            failures: 0,
+            predicted: vec![0.0; size],
+            constant: vec![0.0; size],
+            candidate: vec![0.0; size],
+            difference: vec![0.0; size],
+            candidate_error: 0.0,
+        }
+    }
+
+    fn leading_coefficient(&self) -> f64 {
+        (1..=self.order).map(|i| 1.0 / i as f64).sum()
+    }
+
+    fn candidate_time(&self) -> f64 {
+        self.history.times()[0] + self.step
+    }
+
+    fn predictor(&self, order: usize, skip: usize) -> Weights {
+        lagrange(self.candidate_time(), &self.history.times()[skip..=skip + order])
+    }
+
+    /// Factor between ‖y − ỹ‖ and the local error of the fixed-leading-coefficient formula.
+    fn error_factor(&self) -> f64 {
+        let time = self.candidate_time();
+        let alpha = |back: usize| self.step / (time - self.history.times()[back]);
+        let last = alpha(self.order);
+        let alpha_0: f64 = -(0..self.order).map(alpha).sum::<f64>();
+        let alpha_s = -self.leading_coefficient();
+        last.max((last + alpha_s - alpha_0).abs())
+    }
+
+    /// Estimate of the local error of order `order` at constant step: ‖h^{k+1} y^{(k+1)}‖/(k + 1).
+    fn error_of_order(&mut self, order: usize) -> f64 {
+        let time = self.candidate_time();
+        let weights = self.predictor(order, 0);
+        self.history.combine(&weights.value, order + 1, &mut self.difference);
+        for (difference, y) in self.difference.iter_mut().zip(&self.candidate) {
+            *difference = y - *difference;
+        }
+        let mut factor = 1.0 / (order + 1) as f64;
+        for back in 0..=order {
+            factor *= self.step / (time - self.history.times()[back]) * (back + 1) as f64;
+        }
+        factor * self.norm.norm(&self.difference)
+    }
+
+    /// Ratio of the next step size that keeps an error at the tolerance.
+    fn growth(&self, error: f64, order: usize, bias: f64) -> f64 {
+        1.0 / ((bias * error / self.tolerance).powf(1.0 / (order + 1) as f64) + 1e-6)
+    }
+
+    /// Order and step size after an accepted candidate (which is not yet in the history).
+    fn plan(&mut self) {
+        let order = self.order;
+        let error = self.error_of_order(order);
+        let mut best = (order, self.growth(error, order, BIAS[1]));
+        if self.steps_at_order > order {
+            if order > 1 {
+                let lower = self.error_of_order(order - 1);
+                let growth = self.growth(lower, order - 1, BIAS[0]);
+                if growth > best.1 {
+                    best = (order - 1, growth);
+                }
+            }
+            if order < HIGHEST_ORDER && self.history.len() > order + 1 {
+                let higher = self.error_of_order(order + 1);
+                let growth = self.growth(higher, order + 1, BIAS[2]);
+                if growth > best.1 {
+                    best = (order + 1, growth);
+                }
+            }
+        }
+        let most = if self.accepted == 0 { FIRST_GROWTH } else { MOST_GROWTH };
+        let mut growth = best.1.min(most);
+        if self.failures > 0 {
+            growth = growth.min(1.0);
+        }
+        if growth > 1.0 && growth < LEAST_GROWTH {
+            growth = 1.0;
+            best.0 = order;
+        }
+        if best.0 != order {
+            self.steps_at_order = 0;
+        }
+        self.order = best.0;
+        self.step *= growth.max(0.5);
+    }
+}
+
+impl Stepper for Bdf {
+    fn time(&self) -> f64 {
+        self.history.times()[0]
+    }
+
+    fn state(&self) -> &[f64] {
+        self.history.state(0)
+    }
+
+    fn integrals(&self) -> [f64; INTEGRALS] {
+        let mut values = [0.0; INTEGRALS];
+        values.copy_from_slice(self.integrals.state(0));
+        values
+    }
+
+    fn step_size(&self) -> f64 {
+        self.step
+    }
+
+    fn limit_step_size(&mut self, largest: f64) {
+        self.step = self.step.min(largest);
+    }
+
+    fn order(&self) -> usize {
+        self.last_order
+    }
+
+    fn attempt(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> Result<(), Rejection> {
+        self.norm.rescale(problem, self.history.state(0));
+        let weights = self.predictor(self.order, 0);
+        let points = self.order + 1;
+        let gamma = self.step / self.leading_coefficient();
+        self.history.combine(&weights.value, points, &mut self.predicted);
+        let shifted: [f64; MOST_POINTS] =
+            std::array::from_fn(|i| weights.value[i] - gamma * weights.derivative[i]);
+        self.history.combine(&shifted, points, &mut self.constant);
+        let outcome = self.newton.solve(
+            problem,
+            &self.norm,
+            gamma,
+            &self.constant,
+            &self.predicted,
+            &mut self.candidate,
+            NEWTON_SHARE * self.tolerance,
+            counters,
+        );
+        if outcome == NewtonOutcome::Failed {
+            self.failures += 1;
+            self.step *= 0.25;
+            return Err(Rejection::Solver);
+        }
+        for ((difference, y), predicted) in
+            self.difference.iter_mut().zip(&self.candidate).zip(&self.predicted)
+        {
+            *difference = y - predicted;
+        }
+        self.candidate_error = self.error_factor() * self.norm.norm(&self.difference);
+        if self.candidate_error > self.tolerance {
+            self.failures += 1;
+            let growth = self.growth(self.candidate_error, self.order, 2.0);
+            self.step *= growth.clamp(0.2, 0.9);
+            if self.failures > 2 && self.order > 1 {
+                self.order -= 1;
+                self.steps_at_order = 0;
+            }
+            return Err(Rejection::Error);
+        }
+        Ok(())
+    }
+
+    fn candidate(&mut self) -> &mut [f64] {
+        &mut self.candidate
+    }
+
+    fn refuse(&mut self) {
+        self.failures += 1;
+        self.step *= 0.5;
+        if self.failures > 2 && self.order > 1 {
+            self.order -= 1;
+            self.steps_at_order = 0;
+        }
+    }
+
+    fn accept(&mut self, integral_rates: [f64; INTEGRALS]) {
+        let time = self.candidate_time();
+        let (order, step) = (self.order, self.step);
+        let weights = self.predictor(order, 0);
+        let gamma = step / self.leading_coefficient();
+        let mut integrals = [0.0; INTEGRALS];
+        let mut slopes = [0.0; INTEGRALS];
+        self.integrals.combine(&weights.value, order + 1, &mut integrals);
+        self.integrals.combine(&weights.derivative, order + 1, &mut slopes);
+        for k in 0..INTEGRALS {
+            integrals[k] += gamma * (integral_rates[k] - slopes[k]);
+        }
+        self.integral_rates = integral_rates;
+        self.last_order = order;
+        self.steps_at_order += 1;
+        self.plan();
+        self.history.push(time, &self.candidate);
+        self.integrals.push(time, &integrals);
+        self.accepted += 1;
+        self.failures = 0;
+    }
+
+    fn interpolate(&self, time: f64, y: &mut [f64]) -> [f64; INTEGRALS] {
+        let points = (self.last_order + 1).min(self.history.len());
+        let weights = lagrange(time, &self.history.times()[..points]);
+        self.history.combine(&weights.value, points, y);
+        let mut integrals = [0.0; INTEGRALS];
+        self.integrals.combine(&weights.value, points, &mut integrals);
+        integrals
+    }
+}

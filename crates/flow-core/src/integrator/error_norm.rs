@@ -1,0 +1,68 @@
+//! Relative norm of errors: each block of the state against the norm of that block. See `THEORY.md`, eq. (I1).
+
+use std::ops::Range;
+
+use super::Problem;
+
+/// ‖e‖² = Σ over the blocks of mean(e²)/scale².
+#[derive(Clone, Debug)]
+pub struct ErrorNorm {
+    blocks: Vec<Range<usize>>,
+    /// 1/(number of entries × scale²) of each block.
+    weights: Vec<f64>,
+}
+
+impl ErrorNorm {
+    /// A norm for the blocks of `problem`; call [`ErrorNorm::rescale`] before use.
+    #[must_use]
+    pub fn new(problem: &dyn Problem) -> Self {
+        let blocks = problem.blocks();
+        Self { weights: vec![1.0; blocks.len()], blocks }
+    }
+
+    /// Measures errors against the state `y` from now on.
+    pub fn rescale(&mut self, problem: &dyn Problem, y: &[f64]) {
+        for (index, (block, weight)) in self.blocks.iter().zip(&mut self.weights).enumerate() {
+            let entries = block.len() as f64;
+            let scale = (dot(&y[block.clone()], &y[block.clone()]) / entries).sqrt();
+            let scale = scale.max(problem.block_floor(index, y));
+            *weight = 1.0 / (entries * scale * scale);
+        }
+    }
+
+    /// Inner product of the norm.
+    #[must_use]
+    pub fn product(&self, a: &[f64], b: &[f64]) -> f64 {
+        let blocks = self.blocks.iter().zip(&self.weights);
+        blocks.map(|(block, weight)| weight * dot(&a[block.clone()], &b[block.clone()])).sum()
+    }
+
+    /// The norm.
+    #[must_use]
+    pub fn norm(&self, e: &[f64]) -> f64 {
+        self.product(e, e).sqrt()
+    }
+}
+
+const LANES: usize = 8;
+
+/// Sum of products in eight independent lanes, which the compiler turns into vector registers.
+#[must_use]
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut lanes = [0.0; LANES];
+    let (a_chunks, b_chunks) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
+    let rest: f64 = a_chunks.remainder().iter().zip(b_chunks.remainder()).map(|(a, b)| a * b).sum();
+    for (a, b) in a_chunks.zip(b_chunks) {
+        for k in 0..LANES {
+            lanes[k] += a[k] * b[k];
+        }
+    }
+    rest + ((lanes[0] + lanes[4]) + (lanes[1] + lanes[5])) + ((lanes[2] + lanes[6]) + (lanes[3] + lanes[7]))
+}
+
+/// y += factor × x.
+pub fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
+    for (y, x) in y.iter_mut().zip(x) {
+        *y += factor * x;
+    }
+}

@@ -1,0 +1,123 @@
+//! Left-preconditioned GMRES for (I − γJ)x = r in the error norm. See `THEORY.md`, eq. (I3).
+
+use super::error_norm::{ErrorNorm, add_scaled};
+use super::{Counters, Problem};
+
+/// Room for Krylov bases up to a fixed size; nothing is allocated in a solve.
+#[derive(Clone, Debug)]
+pub struct Gmres {
+    basis: Vec<Vec<f64>>,
+    hessenberg: Vec<Vec<f64>>,
+    rotations: Vec<[f64; 2]>,
+    right: Vec<f64>,
+    product: Vec<f64>,
+}
+
+/// What a solve reached.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Solved {
+    /// Iterations.
+    pub iterations: usize,
+    /// Norm of the preconditioned residual.
+    pub residual: f64,
+}
+
+impl Gmres {
+    /// At most `most` iterations on vectors of `size` entries.
+    #[must_use]
+    pub fn new(size: usize, most: usize) -> Self {
+        Self {
+            basis: vec![vec![0.0; size]; most + 1],
+            hessenberg: vec![vec![0.0; most + 1]; most],
+            rotations: vec![[1.0, 0.0]; most],
+            right: vec![0.0; most + 1],
+            product: vec![0.0; size],
+        }
+    }
+
+    /// Solves until the preconditioned residual is below `goal`; overwrites `r` by x.
+    pub fn solve(
+        &mut self,
+        problem: &mut dyn Problem,
+        norm: &ErrorNorm,
+        gamma: f64,
+        goal: f64,
+        r: &mut [f64],
+        counters: &mut Counters,
+    ) -> Solved {
+        problem.precondition(r);
+        counters.solves += 1;
+        let start = norm.norm(r);
+        let finite = start.is_finite();
+        if !finite || start == 0.0 {
+            return Solved { iterations: 0, residual: start };
+        }
+        self.right.fill(0.0);
+        self.right[0] = start;
+        scale_into(&mut self.basis[0], 1.0 / start, r);
+        let mut iterations = 0;
+        let mut residual = start;
+        while iterations < self.hessenberg.len() && residual > goal {
+            let k = iterations;
+            let (known, next) = self.basis.split_at_mut(k + 1);
+            let next = &mut next[0];
+            problem.jacobian_product(&known[k], &mut self.product);
+            counters.jacobian_products += 1;
+            for ((next, v), product) in next.iter_mut().zip(&known[k]).zip(&self.product) {
+                *next = v - gamma * product;
+            }
+            problem.precondition(next);
+            counters.solves += 1;
+            let column = &mut self.hessenberg[k];
+            for (entry, v) in column.iter_mut().zip(known.iter()) {
+                *entry = norm.product(next, v);
+                add_scaled(next, -*entry, v);
+            }
+            let size = norm.norm(next);
+            for (j, [c, s]) in self.rotations[..k].iter().enumerate() {
+                (column[j], column[j + 1]) =
+                    (c * column[j] + s * column[j + 1], c * column[j + 1] - s * column[j]);
+            }
+            let radius = column[k].hypot(size);
+            if !radius.is_finite() || radius == 0.0 {
+                return Solved { iterations, residual: f64::NAN };
+            }
+            let (c, s) = (column[k] / radius, size / radius);
+            self.rotations[k] = [c, s];
+            column[k] = radius;
+            self.right[k + 1] = -s * self.right[k];
+            self.right[k] *= c;
+            residual = self.right[k + 1].abs();
+            iterations += 1;
+            if size <= 1e-14 * radius {
+                break;
+            }
+            next.iter_mut().for_each(|value| *value /= size);
+        }
+        counters.krylov_iterations += iterations as u64;
+        if iterations > 0 {
+            self.combine(iterations, r);
+        }
+        Solved { iterations, residual }
+    }
+
+    /// Back substitution, and the combination of the basis into `x`. Without iterations x = P⁻¹r stays.
+    fn combine(&mut self, iterations: usize, x: &mut [f64]) {
+        for row in (0..iterations).rev() {
+            for column in row + 1..iterations {
+                self.right[row] -= self.hessenberg[column][row] * self.right[column];
+            }
+            self.right[row] /= self.hessenberg[row][row];
+        }
+        x.fill(0.0);
+        for (v, factor) in self.basis.iter().zip(&self.right[..iterations]) {
+            add_scaled(x, *factor, v);
+        }
+    }
+}
+
+fn scale_into(out: &mut [f64], factor: f64, values: &[f64]) {
+    for (out, value) in out.iter_mut().zip(values) {
+        *out = factor * value;
+    }
+}

@@ -1,0 +1,105 @@
+//! Adaptive implicit time integration of dy/dt = f(y); sees a right-hand side, a Jacobian and `&[f64]`.
+
+mod adaptive;
+mod bdf;
+mod error_norm;
+mod gmres;
+mod history;
+mod newton;
+mod statistics;
+
+pub use adaptive::{Adaptive, AdaptiveOptions, IntegrationError, StepReport};
+pub use bdf::Bdf;
+pub use error_norm::ErrorNorm;
+pub use gmres::Gmres;
+pub use history::History;
+pub use newton::{NewtonKrylov, NewtonOutcome};
+pub use statistics::{Counters, Rejections};
+
+/// A system dy/dt = f(y) with an implicit operator I − γJ, J ≈ f′.
+pub trait Problem {
+    /// Length of the state.
+    fn size(&self) -> usize;
+    /// Consecutive blocks of the state; errors are relative to the norm of each block.
+    fn blocks(&self) -> Vec<std::ops::Range<usize>>;
+    /// Least norm (root mean square) that a block's error is compared with.
+    fn block_floor(&self, block: usize, y: &[f64]) -> f64;
+    /// f(y) into `rate`.
+    fn rate(&mut self, y: &[f64], rate: &mut [f64]);
+    /// Freezes J at `y`.
+    fn linearise(&mut self, y: &[f64]);
+    /// J times `v` into `out`.
+    fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]);
+    /// Prepares an approximate inverse of I − γJ; false if that fails.
+    fn factorise(&mut self, gamma: f64) -> bool;
+    /// Overwrites `r` by the approximate solution of (I − γJ)x = r.
+    fn precondition(&mut self, r: &mut [f64]);
+    /// Tells how many Krylov iterations a solve took; true if the preconditioner changed its kind and
+    /// must be prepared anew.
+    fn krylov_feedback(&mut self, iterations: usize) -> bool;
+    /// Puts the candidate `y` back onto the constraints; evaluates what a finished step must know.
+    fn finish(&mut self, time: f64, y: &mut [f64]) -> Finish;
+    /// Tells that the state finished last was accepted, with the integrals at it.
+    fn accepted(&mut self, time: f64, integrals: [f64; INTEGRALS]);
+}
+
+/// Number of integrals that are carried along with the state.
+pub const INTEGRALS: usize = 4;
+
+/// What a problem says of a candidate state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Finish {
+    /// The state is usable.
+    Good {
+        /// Energy.
+        energy: f64,
+        /// Dissipation −dE/dt.
+        dissipation: f64,
+        /// Rates of the integrals carried along.
+        integral_rates: [f64; INTEGRALS],
+    },
+    /// A value is NaN or infinite, or a constraint cannot be met.
+    NotFinite,
+}
+
+/// Why an attempt at a step failed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rejection {
+    /// The local error was above the tolerance.
+    Error,
+    /// The implicit solve did not converge.
+    Solver,
+    /// The energy rose.
+    EnergyRise,
+    /// A value was NaN or infinite.
+    NotFinite,
+}
+
+/// A one- or multi-step method with its own control of step size and order.
+pub trait Stepper {
+    /// Time of the last accepted state.
+    fn time(&self) -> f64;
+    /// The last accepted state.
+    fn state(&self) -> &[f64];
+    /// The integrals at the last accepted state.
+    fn integrals(&self) -> [f64; INTEGRALS];
+    /// Size of the next attempt.
+    fn step_size(&self) -> f64;
+    /// Limits the size of the next attempt.
+    fn limit_step_size(&mut self, largest: f64);
+    /// Order of the last accepted step.
+    fn order(&self) -> usize;
+    /// Tries one step of [`Stepper::step_size`].
+    ///
+    /// # Errors
+    /// The cause of the rejection; the step size is then already reduced.
+    fn attempt(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> Result<(), Rejection>;
+    /// The candidate of the last attempt.
+    fn candidate(&mut self) -> &mut [f64];
+    /// Throws the candidate away for a cause found outside and reduces the step size.
+    fn refuse(&mut self);
+    /// Accepts the candidate with the integral rates at it.
+    fn accept(&mut self, integral_rates: [f64; INTEGRALS]);
+    /// State at a time within the last accepted step.
+    fn interpolate(&self, time: f64, y: &mut [f64]) -> [f64; INTEGRALS];
+}

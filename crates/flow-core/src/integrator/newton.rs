@@ -1,0 +1,162 @@
+//! Newton–Krylov iteration for an implicit stage y = a + γ f(y). See `THEORY.md`, eq. (I2).
+
+use super::error_norm::{ErrorNorm, add_scaled};
+use super::gmres::Gmres;
+use super::{Counters, Problem};
+
+const MOST_ITERATIONS: usize = 4;
+const MOST_KRYLOV: usize = 30;
+/// γ may change by this factor before the preconditioner is factorised again.
+const GAMMA_DRIFT: f64 = 1.35;
+/// Accepted steps after which the linearisation is renewed in any case.
+const OLDEST_LINEARISATION: usize = 8;
+/// Accepted steps after which the preconditioner is renewed in any case.
+const OLDEST_FACTORISATION: usize = 30;
+
+/// How an iteration ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NewtonOutcome {
+    /// The stage is solved.
+    Converged,
+    /// It is not; a smaller step is needed.
+    Failed,
+}
+
+/// The iteration with its memory: age of the linearisation, rate of convergence.
+#[derive(Clone, Debug)]
+pub struct NewtonKrylov {
+    gmres: Gmres,
+    rate: Vec<f64>,
+    correction: Vec<f64>,
+    linearised: bool,
+    linearisation_age: usize,
+    factorised_gamma: Option<f64>,
+    factorisation_age: usize,
+    contraction: f64,
+}
+
+impl NewtonKrylov {
+    /// For states of `size` entries.
+    #[must_use]
+    pub fn new(size: usize) -> Self {
+        Self {
+            gmres: Gmres::new(size, MOST_KRYLOV),
+            rate: vec![0.0; size],
+            correction: vec![0.0; size],
+            linearised: false,
+            linearisation_age: 0,
+            factorised_gamma: None,
+            factorisation_age: 0,
+            contraction: 1.0,
+        }
+    }
+
+    /// Solves y = `constant` + γf(y) from the guess in `y` to the error `goal` in `norm`.
+    pub fn solve(
+        &mut self,
+        problem: &mut dyn Problem,
+        norm: &ErrorNorm,
+        gamma: f64,
+        constant: &[f64],
+        guess: &[f64],
+        y: &mut [f64],
+        goal: f64,
+        counters: &mut Counters,
+    ) -> NewtonOutcome {
+        loop {
+            let fresh = !self.linearised || self.linearisation_age >= OLDEST_LINEARISATION;
+            if !self.prepare(problem, guess, gamma, counters) {
+                return NewtonOutcome::Failed;
+            }
+            y.copy_from_slice(guess);
+            if self.iterate(problem, norm, gamma, constant, y, goal, counters) {
+                self.linearisation_age += 1;
+                self.factorisation_age += 1;
+                return NewtonOutcome::Converged;
+            }
+            if fresh {
+                self.linearised = false;
+                return NewtonOutcome::Failed;
+            }
+            self.linearised = false;
+            self.factorised_gamma = None;
+        }
+    }
+
+    fn prepare(
+        &mut self,
+        problem: &mut dyn Problem,
+        guess: &[f64],
+        gamma: f64,
+        counters: &mut Counters,
+    ) -> bool {
+        if !self.linearised || self.linearisation_age >= OLDEST_LINEARISATION {
+            problem.linearise(guess);
+            self.linearised = true;
+            self.linearisation_age = 0;
+            self.contraction = 1.0;
+        }
+        let serves = self.factorised_gamma.is_some_and(|old| {
+            let ratio = gamma / old;
+            ratio < GAMMA_DRIFT && ratio > 1.0 / GAMMA_DRIFT
+        });
+        if !serves || self.factorisation_age >= OLDEST_FACTORISATION {
+            counters.factorisations += 1;
+            if self.linearisation_age > 0 {
+                problem.linearise(guess);
+                self.linearisation_age = 0;
+            }
+            if !problem.factorise(gamma) {
+                self.factorised_gamma = None;
+                return false;
+            }
+            self.factorised_gamma = Some(gamma);
+            self.factorisation_age = 0;
+        }
+        true
+    }
+
+    fn iterate(
+        &mut self,
+        problem: &mut dyn Problem,
+        norm: &ErrorNorm,
+        gamma: f64,
+        constant: &[f64],
+        y: &mut [f64],
+        goal: f64,
+        counters: &mut Counters,
+    ) -> bool {
+        let mut previous = f64::INFINITY;
+        for iteration in 0..MOST_ITERATIONS {
+            problem.rate(y, &mut self.rate);
+            counters.right_hand_sides += 1;
+            counters.newton_iterations += 1;
+            for (((correction, rate), constant), y) in
+                self.correction.iter_mut().zip(&self.rate).zip(constant).zip(&*y)
+            {
+                *correction = constant + gamma * rate - y;
+            }
+            let solved =
+                self.gmres.solve(problem, norm, gamma, 0.5 * goal, &mut self.correction, counters);
+            if problem.krylov_feedback(solved.iterations) {
+                self.factorised_gamma = None;
+            }
+            let size = norm.norm(&self.correction);
+            if !size.is_finite() || !solved.residual.is_finite() || solved.residual > 0.5 * size.max(goal) {
+                return false;
+            }
+            add_scaled(y, 1.0, &self.correction);
+            if iteration > 0 {
+                self.contraction = (0.3 * self.contraction).max(size / previous);
+            }
+            if size * self.contraction.min(1.0) <= goal {
+                return true;
+            }
+            if iteration > 0 && size > 2.0 * previous {
+                return false;
+            }
+            previous = size;
+        }
+        false
+    }
+}

@@ -1,0 +1,177 @@
+//! The gradient flow of a closed curve as a problem for the integrator.
+
+use std::ops::Range;
+
+use crate::flow::{GradientFlow, LinearSolver, Preconditioner, Rate};
+use crate::geometry::{Closure, StateRef};
+use crate::integrator::{Finish, INTEGRALS, Problem};
+
+/// Index of ∫ dissipation dt among the integrals.
+pub const DISSIPATED: usize = 0;
+/// Index of the mean tangent angle.
+pub const ANGLE: usize = 1;
+/// Indices of the mean position.
+pub const CENTRE: Range<usize> = 2..4;
+
+/// Krylov iterations per solve, averaged, above which the automatic choice turns to the banded solver.
+const FOURIER_SERVES: f64 = 6.0;
+
+/// A closed curve with densities under a gradient flow.
+#[derive(Debug)]
+pub struct Membrane {
+    flow: GradientFlow,
+    preconditioner: Preconditioner,
+    automatic: bool,
+    mean_iterations: f64,
+    closure: Closure,
+    turning_number: i32,
+    tangential: Vec<f64>,
+    closure_defect: f64,
+    /// Time, angle and rate of the angle at the last accepted state; rate at the candidate.
+    placed: [f64; 3],
+    candidate_angle_rate: f64,
+}
+
+impl Membrane {
+    /// The problem of `flow` for curves of turning number `turning_number`, placed at `angle`.
+    #[must_use]
+    pub fn new(mut flow: GradientFlow, solver: LinearSolver, turning_number: i32, angle: f64) -> Self {
+        let nodes = flow.layout().nodes();
+        Self {
+            preconditioner: Preconditioner::new(solver, &mut flow),
+            automatic: solver == LinearSolver::Auto && Preconditioner::banded_exists(&flow),
+            mean_iterations: 0.0,
+            flow,
+            closure: Closure::new(nodes),
+            turning_number,
+            tangential: vec![0.0; nodes],
+            closure_defect: 0.0,
+            placed: [0.0, angle, 0.0],
+            candidate_angle_rate: 0.0,
+        }
+    }
+
+    /// The flow.
+    pub fn flow(&mut self) -> &mut GradientFlow {
+        &mut self.flow
+    }
+
+    /// The projection onto closed curves.
+    pub fn closure(&mut self) -> &mut Closure {
+        &mut self.closure
+    }
+
+    /// Turning number of the curve.
+    #[must_use]
+    pub fn turning_number(&self) -> i32 {
+        self.turning_number
+    }
+
+    /// Gap of the candidate finished last, before its projection.
+    #[must_use]
+    pub fn closure_defect(&self) -> f64 {
+        self.closure_defect
+    }
+
+    /// Rates of the integrals at the state evaluated last: dissipation, ⟨κW⟩, ⟨Vn + Wτ⟩.
+    fn integral_rates(&mut self, rate: Rate, y: &[f64]) -> [f64; INTEGRALS] {
+        let layout = self.flow.layout();
+        self.flow.tangential_velocity(&mut self.tangential);
+        let length = y[layout.length_index()];
+        let nodes = layout.nodes() as f64;
+        let turning = &y[layout.field(0)];
+        let [tx, ty] = self.closure.embedding().tangent();
+        let (mut angle, mut x, mut y) = (0.0, 0.0, 0.0);
+        for (i, (v, w)) in self.flow.normal_velocity().iter().zip(&self.tangential).enumerate() {
+            angle += turning[i] * w;
+            // n = (τ_y, −τ_x).
+            x += v * ty[i] + w * tx[i];
+            y += w * ty[i] - v * tx[i];
+        }
+        [rate.dissipation, angle / (length * nodes), x / nodes, y / nodes]
+    }
+}
+
+impl Problem for Membrane {
+    fn size(&self) -> usize {
+        self.flow.layout().len()
+    }
+
+    fn blocks(&self) -> Vec<Range<usize>> {
+        let layout = self.flow.layout();
+        let mut blocks: Vec<_> = (0..layout.fields()).map(|field| layout.field(field)).collect();
+        blocks.push(layout.length_index()..layout.len());
+        blocks
+    }
+
+    fn block_floor(&self, block: usize, y: &[f64]) -> f64 {
+        let length = y[self.flow.layout().length_index()];
+        match block {
+            0 => 1.0,
+            _ if block < self.flow.layout().fields() => 1e-3 * length,
+            _ => f64::MIN_POSITIVE,
+        }
+    }
+
+    fn rate(&mut self, y: &[f64], rate: &mut [f64]) {
+        self.flow.rate(y, rate);
+    }
+
+    fn linearise(&mut self, y: &[f64]) {
+        self.flow.linearise(y);
+    }
+
+    fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
+        self.flow.jacobian_product(v, out);
+    }
+
+    fn factorise(&mut self, gamma: f64) -> bool {
+        self.preconditioner.factorise(&mut self.flow, gamma).is_ok()
+    }
+
+    fn precondition(&mut self, r: &mut [f64]) {
+        self.preconditioner.apply(&mut self.flow, r);
+    }
+
+    fn krylov_feedback(&mut self, iterations: usize) -> bool {
+        self.mean_iterations += 0.1 * (iterations as f64 - self.mean_iterations);
+        if self.automatic && self.mean_iterations > FOURIER_SERVES {
+            self.automatic = false;
+            self.preconditioner = Preconditioner::new(LinearSolver::Banded, &mut self.flow);
+            return true;
+        }
+        false
+    }
+
+    fn finish(&mut self, time: f64, y: &mut [f64]) -> Finish {
+        let layout = self.flow.layout();
+        let length = y[layout.length_index()];
+        let [start, angle, angle_rate] = self.placed;
+        if !(length > 0.0 && length.is_finite()) || !y.iter().sum::<f64>().is_finite() {
+            return Finish::NotFinite;
+        }
+        // The angle at the candidate to second order; it turns the frame of the mean position only.
+        let angle = angle + (time - start) * angle_rate;
+        match self.closure.project(&mut y[layout.field(0)], length, self.turning_number, angle) {
+            Ok(gap) => self.closure_defect = gap,
+            Err(_) => return Finish::NotFinite,
+        }
+        let rate = self.flow.dissipation_at(y);
+        if !(rate.energy.is_finite() && rate.dissipation.is_finite()) {
+            return Finish::NotFinite;
+        }
+        let integral_rates = self.integral_rates(rate, y);
+        self.candidate_angle_rate = integral_rates[ANGLE];
+        Finish::Good { energy: rate.energy, dissipation: rate.dissipation, integral_rates }
+    }
+
+    fn accepted(&mut self, time: f64, integrals: [f64; INTEGRALS]) {
+        self.placed = [time, integrals[ANGLE], self.candidate_angle_rate];
+    }
+}
+
+/// Masses of all densities of a state.
+#[must_use]
+pub fn masses(state: StateRef<'_>) -> Vec<f64> {
+    (0..state.layout().densities()).map(|density| state.mass(density)).collect()
+}
