@@ -6,6 +6,7 @@
 
 use super::error_norm::ErrorNorm;
 use super::history::{History, MOST_POINTS, Weights, lagrange};
+use super::integrals::Integrals;
 use super::newton::{NewtonKrylov, NewtonOutcome};
 use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
 
@@ -23,8 +24,7 @@ const FIRST_GROWTH: f64 = 1e4;
 #[derive(Clone, Debug)]
 pub struct Bdf {
     history: History,
-    integrals: History,
-    integral_rates: [f64; INTEGRALS],
+    integrals: Integrals,
     norm: ErrorNorm,
     newton: NewtonKrylov,
     tolerance: f64,
@@ -62,13 +62,9 @@ impl Bdf {
         let before: Vec<f64> = y.iter().zip(&rate).map(|(y, rate)| y - step * rate).collect();
         history.push(-step, &before);
         history.push(0.0, y);
-        let mut integrals = History::new(INTEGRALS);
-        integrals.push(-step, &integral_rates.map(|rate| -step * rate));
-        integrals.push(0.0, &[0.0; INTEGRALS]);
         Self {
             history,
-            integrals,
-            integral_rates,
+            integrals: Integrals::new(integral_rates),
             norm,
             newton: NewtonKrylov::new(size),
             tolerance,
@@ -176,9 +172,7 @@ impl Stepper for Bdf {
     }
 
     fn integrals(&self) -> [f64; INTEGRALS] {
-        let mut values = [0.0; INTEGRALS];
-        values.copy_from_slice(self.integrals.state(0));
-        values
+        self.integrals.values()
     }
 
     fn step_size(&self) -> f64 {
@@ -251,22 +245,11 @@ impl Stepper for Bdf {
 
     fn accept(&mut self, integral_rates: [f64; INTEGRALS]) {
         let time = self.candidate_time();
-        let (order, step) = (self.order, self.step);
-        let weights = self.predictor(order, 0);
-        let gamma = step / self.leading_coefficient();
-        let mut integrals = [0.0; INTEGRALS];
-        let mut slopes = [0.0; INTEGRALS];
-        self.integrals.combine(&weights.value, order + 1, &mut integrals);
-        self.integrals.combine(&weights.derivative, order + 1, &mut slopes);
-        for k in 0..INTEGRALS {
-            integrals[k] += gamma * (integral_rates[k] - slopes[k]);
-        }
-        self.integral_rates = integral_rates;
-        self.last_order = order;
+        self.last_order = self.order;
         self.steps_at_order += 1;
         self.plan();
         self.history.push(time, &self.candidate);
-        self.integrals.push(time, &integrals);
+        self.integrals.push(time, integral_rates);
         self.accepted += 1;
         self.failures = 0;
     }
@@ -275,8 +258,6 @@ impl Stepper for Bdf {
         let points = (self.last_order + 1).min(self.history.len());
         let weights = lagrange(time, &self.history.times()[..points]);
         self.history.combine(&weights.value, points, y);
-        let mut integrals = [0.0; INTEGRALS];
-        self.integrals.combine(&weights.value, points, &mut integrals);
-        integrals
+        self.integrals.at(time)
     }
 }

@@ -35,13 +35,14 @@ impl Gmres {
         }
     }
 
-    /// Solves until the preconditioned residual is below `goal`; overwrites `r` by x.
+    /// Solves until the preconditioned residual is below `goal` and reduced by `reduction`; overwrites `r` by x.
     pub fn solve(
         &mut self,
         problem: &mut dyn Problem,
         norm: &ErrorNorm,
         gamma: f64,
         goal: f64,
+        reduction: f64,
         r: &mut [f64],
         counters: &mut Counters,
     ) -> Solved {
@@ -52,6 +53,7 @@ impl Gmres {
         if !finite || start == 0.0 {
             return Solved { iterations: 0, residual: start };
         }
+        let goal = goal.min(reduction * start);
         self.right.fill(0.0);
         self.right[0] = start;
         scale_into(&mut self.basis[0], 1.0 / start, r);

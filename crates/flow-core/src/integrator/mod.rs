@@ -5,6 +5,7 @@ mod bdf;
 mod error_norm;
 mod gmres;
 mod history;
+mod integrals;
 mod newton;
 mod statistics;
 

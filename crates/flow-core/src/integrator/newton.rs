@@ -6,6 +6,8 @@ use super::{Counters, Problem};
 
 const MOST_ITERATIONS: usize = 4;
 const MOST_KRYLOV: usize = 30;
+/// Each linear solve reduces its residual at least by this factor, so that Newton errors fade with the flow.
+const KRYLOV_REDUCTION: f64 = 0.1;
 /// γ may change by this factor before the preconditioner is factorised again.
 const GAMMA_DRIFT: f64 = 1.35;
 /// Accepted steps after which the linearisation is renewed in any case.
@@ -137,7 +139,7 @@ impl NewtonKrylov {
                 *correction = constant + gamma * rate - y;
             }
             let solved =
-                self.gmres.solve(problem, norm, gamma, 0.5 * goal, &mut self.correction, counters);
+                self.gmres.solve(problem, norm, gamma, 0.5 * goal, KRYLOV_REDUCTION, &mut self.correction, counters);
             if problem.krylov_feedback(solved.iterations) {
                 self.factorised_gamma = None;
             }

@@ -1,0 +1,73 @@
+//! Integrals over time of quantities known at the accepted steps, by polynomials through their last values
+//! (an implicit Adams formula with variable steps). See `THEORY.md`, eq. (I6).
+
+use super::INTEGRALS;
+use super::history::lagrange;
+
+/// Values that a polynomial goes through.
+const POINTS: usize = 5;
+/// Nodes and weights of the three-point Gauss rule on [0, 1], exact for the polynomials used.
+const GAUSS: [(f64, f64); 3] = [
+    (0.112_701_665_379_258_31, 5.0 / 18.0),
+    (0.5, 8.0 / 18.0),
+    (0.887_298_334_620_741_7, 5.0 / 18.0),
+];
+
+/// The integrals with the history of their rates, newest first.
+#[derive(Clone, Debug)]
+pub struct Integrals {
+    times: [f64; POINTS],
+    rates: [[f64; INTEGRALS]; POINTS],
+    filled: usize,
+    /// Values at the last and at the time before.
+    values: [[f64; INTEGRALS]; 2],
+}
+
+impl Integrals {
+    /// Integrals that are zero at time 0, where the rates are `rates`.
+    #[must_use]
+    pub fn new(rates: [f64; INTEGRALS]) -> Self {
+        Self {
+            times: [0.0; POINTS],
+            rates: [rates; POINTS],
+            filled: 1,
+            values: [[0.0; INTEGRALS]; 2],
+        }
+    }
+
+    /// Values at the last time.
+    #[must_use]
+    pub fn values(&self) -> [f64; INTEGRALS] {
+        self.values[0]
+    }
+
+    /// Takes the rates at a new time.
+    pub fn push(&mut self, time: f64, rates: [f64; INTEGRALS]) {
+        self.times.rotate_right(1);
+        self.rates.rotate_right(1);
+        self.times[0] = time;
+        self.rates[0] = rates;
+        self.filled = (self.filled + 1).min(POINTS);
+        self.values[1] = self.values[0];
+        self.values[0] = self.at(time);
+    }
+
+    /// Values at a time within the last step.
+    #[must_use]
+    pub fn at(&self, time: f64) -> [f64; INTEGRALS] {
+        if self.filled < 2 {
+            return self.values[0];
+        }
+        let start = self.times[1];
+        let mut values = self.values[1];
+        for (node, weight) in GAUSS {
+            let weights = lagrange(start + node * (time - start), &self.times[..self.filled]).value;
+            for (rates, lagrange) in self.rates[..self.filled].iter().zip(weights) {
+                for (value, rate) in values.iter_mut().zip(rates) {
+                    *value += (time - start) * weight * lagrange * rate;
+                }
+            }
+        }
+        values
+    }
+}

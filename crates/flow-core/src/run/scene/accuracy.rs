@@ -1,0 +1,133 @@
+//! `[accuracy]`: how exact the answer is to be, and by which methods.
+
+use serde::{Serialize, Serializer};
+
+use super::choice::names;
+use super::entry::Entry;
+use super::error::Bound;
+use super::section::Section;
+
+const MIN_NODES: f64 = 8.0;
+const MAX_NODES: f64 = 65_536.0;
+
+/// Table `[accuracy]`; may be left out.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Accuracy {
+    /// The relative error asked for, in time and in space together: in [1e-11, 1e-1], 1e-5 unless given.
+    pub tolerance: f64,
+    /// Number of nodes on the curve.
+    pub nodes: Nodes,
+    /// Discrete derivative along the curve.
+    pub derivative: Derivative,
+    /// Method of time integration.
+    pub integrator: Integrator,
+    /// Solver of the linear systems of the implicit steps.
+    pub linear_solver: LinearSolver,
+}
+
+/// Number of nodes: `"auto"` (the default), or 8 to 65536.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Nodes {
+    /// As many as the tolerance needs.
+    #[default]
+    Auto,
+    /// This many.
+    Count(usize),
+}
+
+names! {
+    /// The discrete derivative; all are exactly skew.
+    pub enum Derivative {
+        /// Trigonometric interpolation. The default.
+        Fourier = "fourier",
+        /// Central differences of order 2.
+        Central2 = "central-2",
+        /// Central differences of order 4.
+        Central4 = "central-4",
+        /// Central differences of order 6.
+        Central6 = "central-6",
+        /// Central differences of order 8.
+        Central8 = "central-8",
+    }
+}
+
+names! {
+    /// The method of time integration.
+    pub enum Integrator {
+        /// The program chooses. The default.
+        Auto = "auto",
+        /// Backward differentiation formulas of variable order.
+        Bdf = "bdf",
+        /// Linearly implicit Runge–Kutta methods.
+        Rosenbrock = "rosenbrock",
+        /// Diagonally implicit Runge–Kutta methods with an explicit first stage.
+        Esdirk = "esdirk",
+        /// Exponential time differencing.
+        Etdrk4 = "etdrk4",
+    }
+}
+
+names! {
+    /// The solver of the linear systems of the implicit steps.
+    pub enum LinearSolver {
+        /// The program chooses. The default.
+        Auto = "auto",
+        /// Krylov iteration, preconditioned by constant coefficients in Fourier space.
+        Fourier = "fourier",
+        /// Krylov iteration, preconditioned by a banded factorisation.
+        Banded = "banded",
+        /// Factorisation of the full matrix.
+        Dense = "dense",
+    }
+}
+
+impl Default for Accuracy {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-5,
+            nodes: Nodes::Auto,
+            derivative: Derivative::Fourier,
+            integrator: Integrator::Auto,
+            linear_solver: LinearSolver::Auto,
+        }
+    }
+}
+
+impl Accuracy {
+    pub(super) fn read(mut section: Section<'_>) -> Self {
+        let default = Self::default();
+        let tolerance = section.get("tolerance");
+        let tolerance =
+            tolerance.and_then(|entry| entry.number(Bound::Between(1e-11, 1e-1), "try 1e-5, the default"));
+        let nodes = section.get("nodes").and_then(|entry| read_nodes(&entry));
+        let derivative = section.get("derivative").and_then(|entry| entry.choice(&[]));
+        let integrator = section.get("integrator").and_then(|entry| entry.choice(&[]));
+        let linear_solver = section.get("linear_solver").and_then(|entry| entry.choice(&[]));
+        section.finish();
+        Self {
+            tolerance: tolerance.unwrap_or(default.tolerance),
+            nodes: nodes.unwrap_or(default.nodes),
+            derivative: derivative.unwrap_or(default.derivative),
+            integrator: integrator.unwrap_or(default.integrator),
+            linear_solver: linear_solver.unwrap_or(default.linear_solver),
+        }
+    }
+}
+
+fn read_nodes(entry: &Entry<'_>) -> Option<Nodes> {
+    if entry.is("auto") {
+        return Some(Nodes::Auto);
+    }
+    let remedy = "try 256, or \"auto\"";
+    let bound = Bound::Between(MIN_NODES, MAX_NODES);
+    entry.integer_or("an integer or \"auto\"", bound, remedy).map(|count| Nodes::Count(count as usize))
+}
+
+impl Serialize for Nodes {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match *self {
+            Self::Auto => serializer.serialize_str("auto"),
+            Self::Count(count) => serializer.serialize_u64(count as u64),
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! `[[density]]`: densities carried by the curve, in the order of the components.
+
+use serde::Serialize;
+
+use super::choice::names;
+use super::entry::Entry;
+use super::error::Fault;
+use super::formula::Formula;
+use super::section::Section;
+
+/// Names that mean something in expressions; a density called so could not be written there.
+const RESERVED: [&str; 20] = [
+    "s",
+    "phi",
+    "q",
+    "kappa",
+    "kappa_sigma",
+    "rho",
+    "pi",
+    "e",
+    "exp",
+    "ln",
+    "log",
+    "sqrt",
+    "sin",
+    "cos",
+    "tan",
+    "sinh",
+    "cosh",
+    "tanh",
+    "abs",
+    "sigma",
+];
+const MAX_NAME: usize = 64;
+
+/// One density ρ, per unit arc length.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Density {
+    /// Its name, an identifier: used in expressions, in the output file and in Python.
+    pub name: String,
+    /// Initial value, an expression of `s` in `[0, 1)`, the fraction of arc length from the first point.
+    pub initial: Formula,
+    /// How it moves along the curve.
+    pub mobility: DensityMobility,
+}
+
+names! {
+    /// The density mobility 𝓖.
+    pub enum DensityMobility {
+        /// `𝓖 = −Δ_s`: the mass is conserved.
+        Diffusion = "diffusion",
+    }
+}
+
+impl Density {
+    /// Reads `[[density]]`; names that are in order come second, whether or not the rest is.
+    pub(super) fn read_all(entry: Option<Entry<'_>>) -> (Option<Vec<Self>>, Vec<String>) {
+        let Some(entries) = entry.map_or(Some(Vec::new()), |entry| entry.list("a list of tables")) else {
+            return (None, Vec::new());
+        };
+        let mut names = Vec::new();
+        let read = |entry: Entry<'_>| Self::read(entry.section()?, &mut names);
+        let densities: Vec<Option<Self>> = entries.into_iter().map(read).collect();
+        let names = names.into_iter().flatten().collect();
+        (densities.into_iter().collect(), names)
+    }
+
+    fn read(mut section: Section<'_>, names: &mut Vec<Option<String>>) -> Option<Self> {
+        let name =
+            section.required("name", "name = \"protein\"").and_then(|entry| checked_name(&entry, names));
+        names.push(name.clone());
+        let initial = section.required("initial", "initial = \"0.5 + 0.1*cos(2*pi*s)\"");
+        let initial = initial.and_then(|entry| entry.formula(&["s"]));
+        let mobility = section.required("mobility", "mobility = \"diffusion\"");
+        let mobility = mobility.and_then(|entry| entry.choice(&["exchange", "none"]));
+        section.planned("weight");
+        section.finish();
+        Some(Self { name: name?, initial: initial?, mobility: mobility? })
+    }
+}
+
+fn checked_name(entry: &Entry<'_>, names: &[Option<String>]) -> Option<String> {
+    let value = entry.text()?.to_owned();
+    let fault = if RESERVED.contains(&value.as_str()) {
+        Fault::ReservedName { value }
+    } else if !is_identifier(&value) {
+        Fault::NotAnIdentifier { value }
+    } else if let Some(first) = names.iter().position(|name| name.as_ref() == Some(&value)) {
+        Fault::DuplicateDensity { value, first }
+    } else {
+        return Some(value);
+    };
+    entry.fault(fault);
+    None
+}
+
+/// `name_sigma` is the derivative of `name`, so no density may be called so.
+fn is_identifier(name: &str) -> bool {
+    let word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    name.starts_with(|c: char| c.is_ascii_alphabetic())
+        && name.chars().all(word)
+        && name.len() <= MAX_NAME
+        && !name.ends_with("_sigma")
+}

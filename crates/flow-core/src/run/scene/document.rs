@@ -1,0 +1,170 @@
+//! A whole scene: from text to checked values and back.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use toml::Spanned;
+use toml::de::{DeTable, Deserializer};
+
+use super::error::{Fault, SceneError};
+use super::overrides;
+use super::report::Report;
+use super::section::Section;
+use super::shipped::SHIPPED;
+use super::{Accuracy, Curve, Density, Energy, Flow, Output, Time};
+
+/// Longer texts are not scenes.
+pub const MAX_SCENE_BYTES: usize = 1 << 20;
+
+/// A scene that has been checked: everything that a run needs to know.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Scene {
+    /// Title; empty unless given.
+    pub title: String,
+    /// Table `[curve]`.
+    pub curve: Curve,
+    /// Tables `[[density]]`, in the order of the components.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub density: Vec<Density>,
+    /// Tables `[energy.*]`.
+    pub energy: Energy,
+    /// Table `[flow]`.
+    pub flow: Flow,
+    /// Table `[time]`.
+    pub time: Time,
+    /// Table `[accuracy]`.
+    pub accuracy: Accuracy,
+    /// Table `[output]`.
+    pub output: Output,
+    #[serde(skip)]
+    text: String,
+}
+
+impl Scene {
+    /// Reads a scene from a file.
+    /// # Errors
+    /// [`SceneError`]: the file cannot be read, or is not a scene.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, SceneError> {
+        Self::read_with(path, &[])
+    }
+
+    /// Reads a scene from a file and changes it, as [`Scene::parse_with`] does.
+    /// # Errors
+    /// [`SceneError`]: the file cannot be read, or is not a scene.
+    pub fn read_with(path: impl AsRef<Path>, overrides: &[(String, String)]) -> Result<Self, SceneError> {
+        let path = path.as_ref();
+        let unreadable = |source| SceneError::Unreadable { path: path.to_owned(), source };
+        let mut bytes = Vec::new();
+        let file = File::open(path).map_err(unreadable)?;
+        file.take(MAX_SCENE_BYTES as u64 + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+        let source_name = path.display().to_string();
+        check_size(bytes.len(), &source_name)?;
+        let text = String::from_utf8(bytes).map_err(|error| SceneError::NotText {
+            source_name: source_name.clone(),
+            offset: error.utf8_error().valid_up_to(),
+        })?;
+        Self::parse_with(&text, &source_name, overrides)
+    }
+
+    /// Checks the text of a scene; `source_name` is its name in messages, and paths in it start from its folder.
+    /// # Errors
+    /// [`SceneError`]: the text is not a scene.
+    pub fn parse(text: &str, source_name: &str) -> Result<Self, SceneError> {
+        Self::parse_with(text, source_name, &[])
+    }
+
+    /// Checks the text of a scene after changing some of its values. Each change is a dotted key and a value:
+    /// `accuracy.tolerance` and `1e-6`, `density.0.initial` or `density.protein.initial` and `0.5 + 0.1*s`. A value that
+    /// is not TOML is taken as text. Missing keys and tables are added; later changes win.
+    /// # Errors
+    /// [`SceneError`]: the text, or what the changes make of it, is not a scene.
+    pub fn parse_with(
+        text: &str,
+        source_name: &str,
+        overrides: &[(String, String)],
+    ) -> Result<Self, SceneError> {
+        check_size(text.len(), source_name)?;
+        let parsed =
+            DeTable::parse(text).map_err(|error| Report::new(source_name, text, &[]).syntax_error(&error))?;
+        let changes = overrides::resolve(parsed.get_ref(), overrides);
+        let report = Report::new(source_name, text, &changes);
+        let mut document = parsed;
+        overrides::apply(document.get_mut(), &changes, &report);
+        let scene = read(Section::new(&report, String::new(), 0..0, document.get_ref()));
+        match (report.into_error(), scene) {
+            (None, Some(scene)) if changes.is_empty() => Ok(Self { text: text.to_owned(), ..scene }),
+            (None, Some(scene)) => Ok(Self { text: written_out(document), ..scene }),
+            (Some(error), _) => Err(error),
+            (None, None) => unreachable!("a scene that cannot be read has a problem"),
+        }
+    }
+
+    /// The scene as given: verbatim, or, if values were changed, as TOML with the changes.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The scene as understood: TOML with every default filled in. Parsing it gives the same values.
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        toml::to_string(self).expect("every scene can be written as TOML")
+    }
+
+    /// Name and text of each scene that comes with the program.
+    #[must_use]
+    pub fn shipped() -> &'static [(&'static str, &'static str)] {
+        SHIPPED
+    }
+}
+
+/// A document as TOML; its comments are lost.
+fn written_out(document: Spanned<DeTable<'_>>) -> String {
+    let table = toml::Table::deserialize(Deserializer::from(document));
+    table.expect("all values of a scene have been read").to_string()
+}
+
+fn check_size(bytes: usize, source_name: &str) -> Result<(), SceneError> {
+    if bytes > MAX_SCENE_BYTES {
+        return Err(SceneError::TooLarge { source_name: source_name.to_owned(), limit: MAX_SCENE_BYTES });
+    }
+    Ok(())
+}
+
+/// Reads all tables, so that all problems are found; `None` if there is one.
+fn read(mut root: Section<'_>) -> Option<Scene> {
+    let title = root.get("title").map_or(Some(""), |entry| entry.text());
+    let curve = root.required("curve", "[curve] with shape = \"circle\" and radius = 1.0");
+    let curve = curve.and_then(|entry| Curve::read(entry.section()?));
+    let (density, names) = Density::read_all(root.get("density"));
+    let energy = root.required("energy", "[energy.bending] with rigidity = 1.0");
+    let energy = energy.and_then(|entry| {
+        let energy = Energy::read(entry.section()?, &names);
+        if energy.is_none() {
+            root.fault("energy", Fault::MissingKey { example: "[energy.bending] with rigidity = 1.0" });
+        }
+        energy
+    });
+    let flow = root.section("flow").map(Flow::read).unwrap_or_default();
+    let time = root.required("time", "[time] with end = 1.0");
+    let time = time.and_then(|entry| Time::read(entry.section()?));
+    let accuracy = root.section("accuracy").map(Accuracy::read).unwrap_or_default();
+    let end = time.as_ref().map(|time| time.end);
+    let output =
+        root.section("output").map_or_else(|| Some(Output::default()), |table| Output::read(table, end));
+    root.finish();
+    let (title, text) = (title?.to_owned(), String::new());
+    Some(Scene {
+        title,
+        curve: curve?,
+        density: density?,
+        energy: energy?,
+        flow,
+        time: time?,
+        accuracy,
+        output: output?,
+        text,
+    })
+}

@@ -1,0 +1,23 @@
+//! `[energy.regularization]`: `∫ (δ/2) |∇_sκ|² dσ`.
+
+use serde::Serialize;
+
+use crate::run::scene::error::Bound;
+use crate::run::scene::section::Section;
+
+/// Parameters of the curvature regularisation.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Regularization {
+    /// Weight δ > 0, in energy × length³.
+    pub delta: f64,
+}
+
+impl Regularization {
+    pub(super) fn read(mut section: Section<'_>) -> Option<Self> {
+        let delta = section.required("delta", "delta = 0.2");
+        let delta =
+            delta.and_then(|entry| entry.number(Bound::Positive, "try delta = 0.2, or drop the table"));
+        section.finish();
+        Some(Self { delta: delta? })
+    }
+}

@@ -1,0 +1,53 @@
+//! `[flow]`: how the curve may move.
+
+use serde::Serialize;
+
+use super::choice::names;
+use super::section::Section;
+
+/// Table `[flow]`; may be left out.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Flow {
+    /// The normal mobility 𝓑.
+    pub normal_mobility: NormalMobility,
+    /// The rule for the tangential velocity.
+    pub gauge: Gauge,
+}
+
+names! {
+    /// The normal mobility 𝓑.
+    pub enum NormalMobility {
+        /// 𝓑 = Id: the L² gradient flow. The default.
+        Identity = "identity",
+    }
+}
+
+names! {
+    /// The gauge: which tangential velocity goes with a normal one.
+    pub enum Gauge {
+        /// The metric g stays uniform along the curve. The default.
+        ScaledArcLength = "scaled-arc-length",
+    }
+}
+
+impl Default for Flow {
+    fn default() -> Self {
+        Self { normal_mobility: NormalMobility::Identity, gauge: Gauge::ScaledArcLength }
+    }
+}
+
+impl Flow {
+    pub(super) fn read(mut section: Section<'_>) -> Self {
+        let default = Self::default();
+        let planned_mobilities =
+            ["incompressible", "area-preserving", "incompressible-area-preserving", "surface-diffusion"];
+        let normal_mobility =
+            section.get("normal_mobility").and_then(|entry| entry.choice(&planned_mobilities));
+        let gauge = section.get("gauge").and_then(|entry| entry.choice(&["graded", "co-moving"]));
+        section.finish();
+        Self {
+            normal_mobility: normal_mobility.unwrap_or(default.normal_mobility),
+            gauge: gauge.unwrap_or(default.gauge),
+        }
+    }
+}

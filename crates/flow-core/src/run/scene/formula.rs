@@ -1,0 +1,77 @@
+//! Expressions in scenes, with the text that they come from.
+
+use serde::{Serialize, Serializer};
+
+use crate::expression::{Expression, ExpressionError};
+
+/// A number or an expression of a scene, with its text, ready to be evaluated.
+#[derive(Clone, Debug)]
+pub struct Formula {
+    expression: Expression,
+    variables: Vec<String>,
+    written: Written,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Written {
+    Number(f64),
+    Text(String),
+}
+
+impl Formula {
+    /// A formula in `variables`.
+    /// # Errors
+    /// [`ExpressionError`] if the text is not in the grammar or uses another variable.
+    pub fn parse(text: &str, variables: &[&str]) -> Result<Self, ExpressionError> {
+        let expression = Expression::parse(text, variables)?;
+        Ok(Self { expression, variables: owned(variables), written: Written::Text(text.to_owned()) })
+    }
+
+    /// The same value for all values of `variables`.
+    #[must_use]
+    pub fn constant(value: f64, variables: &[&str]) -> Self {
+        let expression = Expression::constant(value);
+        Self { expression, variables: owned(variables), written: Written::Number(value) }
+    }
+
+    /// The expression; its variables are numbered as in [`Formula::variables`].
+    #[must_use]
+    pub fn expression(&self) -> &Expression {
+        &self.expression
+    }
+
+    /// Names of the variables that the formula may use, in the order in which they are passed to the expression.
+    #[must_use]
+    pub fn variables(&self) -> &[String] {
+        &self.variables
+    }
+
+    /// The formula as text.
+    #[must_use]
+    pub fn text(&self) -> String {
+        match &self.written {
+            Written::Number(value) => value.to_string(),
+            Written::Text(text) => text.clone(),
+        }
+    }
+}
+
+fn owned(variables: &[&str]) -> Vec<String> {
+    variables.iter().map(|&name| name.to_owned()).collect()
+}
+
+/// Two formulas are equal if they are written alike, in the same variables.
+impl PartialEq for Formula {
+    fn eq(&self, other: &Self) -> bool {
+        self.written == other.written && self.variables == other.variables
+    }
+}
+
+impl Serialize for Formula {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match &self.written {
+            Written::Number(value) => serializer.serialize_f64(*value),
+            Written::Text(text) => serializer.serialize_str(text),
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! A scene as data: read from TOML, checked, and written back with every default filled in.
+//!
+//! One file per table. A table is read by one function that asks a `Section` for its keys; what nobody asked for is an
+//! unknown key, so the list of allowed keys is the code itself. Nothing stops at the first mistake: every problem
+//! of a scene is reported at once, each with its key, line, value, bound and one thing to try.
+//!
+//! A new energy is one file in `energy/` and its lines in the list of `energy/table.rs`.
+//!
+//! ```
+//! use flow_core::run::Scene;
+//!
+//! let text = "
+//! curve = { shape = 'circle', radius = 1.0 }
+//! time = { end = 1.0 }
+//! [energy.bending]
+//! rigidty = 1.0
+//! ";
+//! let error = Scene::parse(text, "bent.toml").unwrap_err().to_string();
+//! assert!(error.contains("line 5 | rigidty = 1.0"));
+//! assert!(error.contains("did you mean `rigidity`?"));
+//! ```
+
+mod accuracy;
+mod choice;
+mod curve;
+mod density;
+mod document;
+mod energy;
+mod entry;
+mod error;
+mod flow;
+mod formula;
+mod message;
+mod output;
+mod overrides;
+mod points;
+mod report;
+mod section;
+mod shipped;
+mod suggest;
+mod time;
+
+pub use accuracy::{Accuracy, Derivative, Integrator, LinearSolver, Nodes};
+pub use curve::{Curve, Shape};
+pub use density::{Density, DensityMobility};
+pub use document::{MAX_SCENE_BYTES, Scene};
+pub use energy::{Agents, Bending, Energy, Length, LengthTarget, Local, Regularization};
+pub use error::{Bound, Fault, Place, Problem, SceneError};
+pub use flow::{Flow, Gauge, NormalMobility};
+pub use formula::Formula;
+pub use output::{Frames, Output, Spacing};
+pub use points::PointsError;
+pub use time::Time;

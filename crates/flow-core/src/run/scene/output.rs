@@ -1,0 +1,98 @@
+//! `[output]`: which states to save.
+
+use serde::Serialize;
+
+use super::choice::names;
+use super::entry::Entry;
+use super::error::{Bound, Fault};
+use super::section::Section;
+
+/// More frames than this are more likely a slip than a wish.
+const MAX_FRAMES: usize = 100_000;
+const DEFAULT_FRAMES: usize = 200;
+
+/// Table `[output]`; may be left out.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Output {
+    /// When to save a state; the initial and the final one are always saved.
+    #[serde(flatten)]
+    pub frames: Frames,
+}
+
+/// When to save a state.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+#[non_exhaustive]
+pub enum Frames {
+    /// A number of frames over the whole run.
+    Spaced {
+        /// How many, at least 1; 200 unless given.
+        frames: usize,
+        /// How they are spread over the time.
+        spacing: Spacing,
+    },
+    /// At given times.
+    At {
+        /// Increasing, each in [0, end].
+        times: Vec<f64>,
+    },
+}
+
+names! {
+    /// How frames are spread over the time.
+    pub enum Spacing {
+        /// At equal distances. The default.
+        Linear = "linear",
+        /// At equal ratios, so that early changes are seen too.
+        Log = "log",
+    }
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Self { frames: Frames::Spaced { frames: DEFAULT_FRAMES, spacing: Spacing::Linear } }
+    }
+}
+
+impl Output {
+    /// `end` is the end time, if that is known.
+    pub(super) fn read(mut section: Section<'_>, end: Option<f64>) -> Option<Self> {
+        let (frames, spacing, times) = (section.get("frames"), section.get("spacing"), section.get("times"));
+        let count = frames.as_ref().map_or(Some(DEFAULT_FRAMES), read_count);
+        let spaced = spacing.as_ref().map_or(Some(Spacing::Linear), |entry| entry.choice(&[]));
+        if times.is_some() {
+            for key in ["frames", "spacing"].into_iter().filter(|key| section.has(key)) {
+                let remedy = "keep `times` alone, or `frames` with `spacing`";
+                section.fault(key, Fault::Conflict { with: "output.times", remedy });
+            }
+        }
+        section.finish();
+        let frames = match times {
+            Some(times) => Frames::At { times: read_times(&times, end)? },
+            None => Frames::Spaced { frames: count?, spacing: spaced? },
+        };
+        Some(Self { frames })
+    }
+}
+
+fn read_count(entry: &Entry<'_>) -> Option<usize> {
+    entry.integer(Bound::Between(1.0, MAX_FRAMES as f64), "try 200, the default").map(|count| count as usize)
+}
+
+fn read_times(entry: &Entry<'_>, end: Option<f64>) -> Option<Vec<f64>> {
+    let list = entry.list("a list of times")?;
+    if !(1..=MAX_FRAMES).contains(&list.len()) {
+        let bound = Bound::Between(1.0, MAX_FRAMES as f64);
+        entry.fault(Fault::WrongCount { count: list.len(), bound, remedy: "try times = [0.1, 1.0]" });
+        return None;
+    }
+    let bound = end.map_or(Bound::AtLeast(0.0), |end| Bound::Between(0.0, end));
+    let times: Vec<Option<f64>> =
+        list.iter().map(|entry| entry.number(bound, "frames lie between 0 and time.end")).collect();
+    let times = times.into_iter().collect::<Option<Vec<f64>>>()?;
+    if let Some(pair) = times.windows(2).find(|pair| pair[0] >= pair[1]) {
+        entry.fault(Fault::NotIncreasing { value: pair[1], previous: pair[0] });
+        return None;
+    }
+    Some(times)
+}

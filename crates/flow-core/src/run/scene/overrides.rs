@@ -1,0 +1,120 @@
+//! Changes to a scene from outside: `--set accuracy.tolerance=1e-6`, `--set density.protein.initial=0.5`.
+
+use std::borrow::Cow;
+
+use toml::Spanned;
+use toml::de::{DeArray, DeTable, DeValue};
+
+use super::error::Fault;
+use super::report::Report;
+
+/// Scenes are shallower than this.
+const MAX_DEPTH: usize = 8;
+
+/// One `--set key=value`.
+pub(super) struct Override<'a> {
+    /// The key as given.
+    pub(super) key: &'a str,
+    /// The value as given.
+    pub(super) value: &'a str,
+    /// The key with densities by index, as in the paths of problems.
+    pub(super) path: String,
+}
+
+/// Resolves the keys against a document.
+pub(super) fn resolve<'a>(document: &DeTable<'_>, overrides: &'a [(String, String)]) -> Vec<Override<'a>> {
+    let resolved = |(key, value): &'a (String, String)| Override { key, value, path: path(document, key) };
+    overrides.iter().map(resolved).collect()
+}
+
+fn path(document: &DeTable<'_>, key: &str) -> String {
+    let mut segments: Vec<&str> = key.split('.').collect();
+    let by_name = match (segments.as_slice(), document.get("density").map(Spanned::get_ref)) {
+        (["density", name, ..], Some(DeValue::Array(densities))) => position(densities, name),
+        _ => None,
+    };
+    let index = by_name.map(|index| index.to_string());
+    if let Some(index) = &index {
+        segments[1] = index;
+    }
+    segments.join(".")
+}
+
+fn position(densities: &DeArray<'_>, name: &str) -> Option<usize> {
+    densities.iter().position(|density| {
+        density.get_ref().as_table().and_then(|table| table.get("name")).and_then(|v| v.get_ref().as_str())
+            == Some(name)
+    })
+}
+
+/// Writes the values into the document; keys that lead nowhere are reported.
+pub(super) fn apply<'i>(document: &mut DeTable<'i>, overrides: &'i [Override<'i>], report: &Report<'_>) {
+    for change in overrides {
+        if let Err((reason, remedy)) = set(document, &change.path, value(change.value)) {
+            report.add(&change.path, &(0..0), Fault::NoSuchPlace { reason, remedy });
+        }
+    }
+}
+
+/// A TOML value, or else the text itself.
+fn value(text: &str) -> DeValue<'_> {
+    DeValue::parse(text).map_or_else(|_| DeValue::String(Cow::Borrowed(text)), Spanned::into_inner)
+}
+
+fn set<'i>(
+    document: &mut DeTable<'i>,
+    path: &'i str,
+    value: DeValue<'i>,
+) -> Result<(), (String, &'static str)> {
+    let segments: Vec<&str> = path.split('.').collect();
+    let shaped =
+        |segment: &&str| !segment.is_empty() && !segment.chars().any(|c| c.is_control() || c.is_whitespace());
+    if segments.len() > MAX_DEPTH || !segments.iter().all(shaped) {
+        let reason = "the key is not a dotted path".to_owned();
+        return Err((reason, "write it like accuracy.tolerance=1e-6"));
+    }
+    let mut table = document;
+    let mut rest = segments.as_slice();
+    while let [segment, tail @ ..] = rest {
+        rest = tail;
+        if tail.is_empty() {
+            // An empty span marks what is not in the file.
+            let (key, value) = (Spanned::new(0..0, Cow::Borrowed(*segment)), Spanned::new(0..0, value));
+            table.insert(key, value);
+            return Ok(());
+        }
+        let key = Spanned::new(0..0, Cow::Borrowed(*segment));
+        let inner = table.entry(key).or_insert_with(|| Spanned::new(0..0, DeValue::Table(DeTable::new())));
+        table = match inner.get_mut() {
+            DeValue::Table(inner) => inner,
+            DeValue::Array(array) => {
+                rest = &tail[1..];
+                let element = element(array, segment, tail[0])?;
+                if rest.is_empty() {
+                    *element = value;
+                    return Ok(());
+                }
+                let DeValue::Table(inner) = element else {
+                    return Err((format!("`{segment}.{}` is not a table", tail[0]), "shorten the key"));
+                };
+                inner
+            }
+            _ => return Err((format!("`{segment}` is a value, not a table"), "shorten the key")),
+        };
+    }
+    Ok(())
+}
+
+fn element<'t, 'i>(
+    array: &'t mut DeArray<'i>,
+    list: &str,
+    index: &str,
+) -> Result<&'t mut DeValue<'i>, (String, &'static str)> {
+    let count = array.len();
+    let found = index.parse().ok().and_then(|index: usize| array.get_mut(index));
+    let missing = || {
+        let reason = format!("`{list}` has {count} entries and none of them is `{index}`");
+        (reason, "count from 0, or give the name of a density of the scene")
+    };
+    found.map(Spanned::get_mut).ok_or_else(missing)
+}

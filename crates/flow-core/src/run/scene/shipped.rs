@@ -1,0 +1,9 @@
+//! The scenes that come with the program, from `scenes/` at the root of the repository.
+
+/// Name and text of each, in the order in which they are listed.
+pub(super) const SHIPPED: &[(&str, &str)] = &[
+    ("three_fold", include_str!("../../../../../scenes/three_fold.toml")),
+    ("three_fold_sharp", include_str!("../../../../../scenes/three_fold_sharp.toml")),
+    ("length_penalty", include_str!("../../../../../scenes/length_penalty.toml")),
+    ("circle", include_str!("../../../../../scenes/circle.toml")),
+];
