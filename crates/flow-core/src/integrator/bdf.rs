@@ -12,12 +12,12 @@ use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
 
 const HIGHEST_ORDER: usize = 5;
 /// Newton's method is solved to this part of the tolerance.
-const NEWTON_SHARE: f64 = 0.1;
+
 /// Safety factors on the error of order k − 1, k, k + 1: a change of order must pay.
-const BIAS: [f64; 3] = [6.0, 6.0, 10.0];
+fn env(name: &str, d: f64) -> f64 { std::env::var(name).ok().and_then(|x| x.parse().ok()).unwrap_or(d) }
 /// Growth below this factor is not worth a new step size.
-const LEAST_GROWTH: f64 = 1.2;
-const MOST_GROWTH: f64 = 2.5;
+
+
 const FIRST_GROWTH: f64 = 1e4;
 
 /// The method with its state.
@@ -128,29 +128,29 @@ impl Bdf {
     fn plan(&mut self) {
         let order = self.order;
         let error = self.error_of_order(order);
-        let mut best = (order, self.growth(error, order, BIAS[1]));
+        let mut best = (order, self.growth(error, order, env("B1", 6.0)));
         if self.steps_at_order > order {
             if order > 1 {
                 let lower = self.error_of_order(order - 1);
-                let growth = self.growth(lower, order - 1, BIAS[0]);
+                let growth = self.growth(lower, order - 1, env("B0", 6.0));
                 if growth > best.1 {
                     best = (order - 1, growth);
                 }
             }
             if order < HIGHEST_ORDER && self.history.len() > order + 1 {
                 let higher = self.error_of_order(order + 1);
-                let growth = self.growth(higher, order + 1, BIAS[2]);
+                let growth = self.growth(higher, order + 1, env("B2", 10.0));
                 if growth > best.1 {
                     best = (order + 1, growth);
                 }
             }
         }
-        let most = if self.accepted == 0 { FIRST_GROWTH } else { MOST_GROWTH };
+        let most = if self.accepted == 0 { FIRST_GROWTH } else { env("MG", 2.5) };
         let mut growth = best.1.min(most);
         if self.failures > 0 {
             growth = growth.min(1.0);
         }
-        if growth > 1.0 && growth < LEAST_GROWTH {
+        if growth > 1.0 && growth < env("LG", 1.2) {
             growth = 1.0;
             best.0 = order;
         }
@@ -203,7 +203,7 @@ impl Stepper for Bdf {
             &self.constant,
             &self.predicted,
             &mut self.candidate,
-            NEWTON_SHARE * self.tolerance,
+            env("NS", 0.1) * self.tolerance,
             counters,
         );
         if outcome == NewtonOutcome::Failed {

@@ -7,7 +7,7 @@ use super::{Counters, Problem};
 const MOST_ITERATIONS: usize = 4;
 const MOST_KRYLOV: usize = 30;
 /// Each linear solve reduces its residual at least by this factor, so that Newton errors fade with the flow.
-const KRYLOV_REDUCTION: f64 = 0.1;
+const KRYLOV_REDUCTION: f64 = 0.03;
 /// γ may change by this factor before the preconditioner is factorised again.
 const GAMMA_DRIFT: f64 = 1.35;
 /// Accepted steps after which the linearisation is renewed in any case.
