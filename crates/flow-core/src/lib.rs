@@ -1,4 +1,5 @@
 //! Gradient flows of energies of closed planar curves that carry embedded densities.
 
+pub mod expression;
 pub mod output;
 pub mod run;

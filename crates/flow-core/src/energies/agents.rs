@@ -1,0 +1,167 @@
+//! Curvature agents: ∫ (δ/2)|∇_sκ|² + f/δ + (ε/2)|∇_sρ|² + F/ε dσ with f = ½(κ − κ₀(ρ))² and
+//! F = 4(ρ − ρ₋(κ))²(ρ − ρ₊(κ))². See `THEORY.md`, eq. (E4).
+
+use super::{EnergyTerm, Fields, Jet, Order};
+use crate::expression::{Expression, ExpressionError, Program};
+
+/// The nodal functions of the potentials, as expressions of one variable each.
+#[derive(Clone, Debug)]
+pub struct NodalLines {
+    /// κ₀(ρ).
+    pub preferred_curvature: Expression,
+    /// ρ₋(κ).
+    pub low_density: Expression,
+    /// ρ₊(κ).
+    pub high_density: Expression,
+}
+
+/// Energy of one density that prefers curvatures.
+#[derive(Clone, Debug)]
+pub struct Agents {
+    field: usize,
+    epsilon: f64,
+    delta: f64,
+    gradient_lines: Program,
+    hessian_lines: Program,
+    /// κ₀, κ₀′, ρ₋, ρ₋′, ρ₊, ρ₊′ and then κ₀″, ρ₋″, ρ₊″ at the nodes.
+    lines: Vec<f64>,
+    scratch: Vec<f64>,
+}
+
+const FIRST_ORDER_LINES: usize = 6;
+const LINES: usize = 9;
+
+impl Agents {
+    /// Agents on density `density` (counted from 0) with widths ε, δ > 0, for `nodes` nodes.
+    ///
+    /// In `lines`, variable 0 is κ and variable 1 is ρ.
+    ///
+    /// # Errors
+    /// [`ExpressionError`] if a derivative of a nodal line is too large.
+    pub fn new(
+        density: usize,
+        epsilon: f64,
+        delta: f64,
+        lines: &NodalLines,
+        nodes: usize,
+    ) -> Result<Self, ExpressionError> {
+        let by_rho = |e: &Expression| e.derivative(1);
+        let by_kappa = |e: &Expression| e.derivative(0);
+        let (preferred, low, high) = (&lines.preferred_curvature, &lines.low_density, &lines.high_density);
+        let (preferred_1, low_1, high_1) = (by_rho(preferred)?, by_kappa(low)?, by_kappa(high)?);
+        let (preferred_2, low_2, high_2) = (by_rho(&preferred_1)?, by_kappa(&low_1)?, by_kappa(&high_1)?);
+        let first_order = [preferred, &preferred_1, low, &low_1, high, &high_1];
+        let gradient_lines = Program::compile(&first_order);
+        let mut all = first_order.to_vec();
+        all.extend([&preferred_2, &low_2, &high_2]);
+        let hessian_lines = Program::compile(&all);
+        let scratch = gradient_lines.scratch_len().max(hessian_lines.scratch_len());
+        Ok(Self {
+            field: 1 + density,
+            epsilon,
+            delta,
+            gradient_lines,
+            hessian_lines,
+            lines: vec![0.0; LINES * nodes],
+            scratch: vec![0.0; scratch],
+        })
+    }
+}
+
+impl EnergyTerm for Agents {
+    fn name(&self) -> &'static str {
+        "agents"
+    }
+
+    fn has_density(&self) -> bool {
+        true
+    }
+
+    fn stiffness(&self, field: usize) -> f64 {
+        match field {
+            0 => self.delta,
+            _ if field == self.field => self.epsilon,
+            _ => 0.0,
+        }
+    }
+
+    fn add_density(&mut self, fields: Fields<'_>, jet: &mut Jet) {
+        let nodes = fields.nodes();
+        let (kappa, rho) = (fields.get(0), fields.get(self.field));
+        if jet.order() < Order::Hessian {
+            let mut lines = self.lines.chunks_exact_mut(nodes);
+            let mut outputs: [&mut [f64]; FIRST_ORDER_LINES] =
+                std::array::from_fn(|_| lines.next().unwrap_or_default());
+            self.gradient_lines.evaluate(&[kappa, rho], &mut outputs, &mut self.scratch);
+            let lines: [&[f64]; FIRST_ORDER_LINES] =
+                std::array::from_fn(|k| &self.lines[k * nodes..(k + 1) * nodes]);
+            add_gradient(self.field, [self.epsilon, self.delta], kappa, rho, lines, jet);
+        } else {
+            let mut lines = self.lines.chunks_exact_mut(nodes);
+            let mut outputs: [&mut [f64]; LINES] = std::array::from_fn(|_| lines.next().unwrap_or_default());
+            self.hessian_lines.evaluate(&[kappa, rho], &mut outputs, &mut self.scratch);
+            let lines: [&[f64]; LINES] = std::array::from_fn(|k| &self.lines[k * nodes..(k + 1) * nodes]);
+            let first: [&[f64]; FIRST_ORDER_LINES] = std::array::from_fn(|k| lines[k]);
+            add_gradient(self.field, [self.epsilon, self.delta], kappa, rho, first, jet);
+            add_hessian(self.field, [self.epsilon, self.delta], kappa, rho, lines, jet);
+        }
+    }
+}
+
+/// e, e_κ and e_ρ. With u = ρ − ρ₋, v = ρ − ρ₊: F = 4u²v², F_ρ = 8uv(u + v), F_κ = −8uv(ρ₋′v + ρ₊′u).
+fn add_gradient(
+    field: usize,
+    [epsilon, delta]: [f64; 2],
+    kappa: &[f64],
+    rho: &[f64],
+    [preferred, preferred_1, low, low_1, high, high_1]: [&[f64]; FIRST_ORDER_LINES],
+    jet: &mut Jet,
+) {
+    let (by_delta, by_epsilon) = (1.0 / delta, 1.0 / epsilon);
+    let nodes = rho.len();
+    let (value, by_kappa) = jet.value_and_first_mut(0);
+    for i in 0..nodes {
+        let (u, v, excess) = (rho[i] - low[i], rho[i] - high[i], kappa[i] - preferred[i]);
+        let uv = u * v;
+        value[i] += 0.5 * by_delta * excess * excess + 4.0 * by_epsilon * uv * uv;
+        by_kappa[i] += by_delta * excess - 8.0 * by_epsilon * uv * (low_1[i] * v + high_1[i] * u);
+    }
+    let by_rho = jet.first_mut(field);
+    for i in 0..nodes {
+        let (u, v, excess) = (rho[i] - low[i], rho[i] - high[i], kappa[i] - preferred[i]);
+        by_rho[i] += 8.0 * by_epsilon * u * v * (u + v) - by_delta * excess * preferred_1[i];
+    }
+}
+
+/// e_κκ, e_κρ and e_ρρ.
+fn add_hessian(
+    field: usize,
+    [epsilon, delta]: [f64; 2],
+    kappa: &[f64],
+    rho: &[f64],
+    [preferred, preferred_1, low, low_1, high, high_1, preferred_2, low_2, high_2]: [&[f64]; LINES],
+    jet: &mut Jet,
+) {
+    let (by_delta, by_epsilon) = (1.0 / delta, 8.0 / epsilon);
+    let nodes = rho.len();
+    let kappa_kappa = jet.second_mut(0, 0);
+    for i in 0..nodes {
+        let (u, v) = (rho[i] - low[i], rho[i] - high[i]);
+        let slope = low_1[i] * v + high_1[i] * u;
+        let bend = low_2[i] * v + high_2[i] * u - 2.0 * low_1[i] * high_1[i];
+        kappa_kappa[i] += by_delta + by_epsilon * (slope * slope - u * v * bend);
+    }
+    let kappa_rho = jet.second_mut(0, field);
+    for i in 0..nodes {
+        let (u, v) = (rho[i] - low[i], rho[i] - high[i]);
+        let slope = low_1[i] * v + high_1[i] * u;
+        kappa_rho[i] -=
+            by_delta * preferred_1[i] + by_epsilon * ((u + v) * slope + u * v * (low_1[i] + high_1[i]));
+    }
+    let rho_rho = jet.second_mut(field, field);
+    for i in 0..nodes {
+        let (u, v, excess) = (rho[i] - low[i], rho[i] - high[i], kappa[i] - preferred[i]);
+        rho_rho[i] += by_epsilon * ((u + v) * (u + v) + 2.0 * u * v)
+            + by_delta * (preferred_1[i] * preferred_1[i] - excess * preferred_2[i]);
+    }
+}

@@ -1,0 +1,102 @@
+//! Any local energy ∫ e(κ, ρ, ∇_sκ, ∇_sρ) dσ given as an expression. See `THEORY.md`, eq. (E5).
+
+use super::{EnergyTerm, Fields, Jet, Order};
+use crate::expression::{Expression, ExpressionError, Program};
+
+/// A local density from an expression, differentiated by the program.
+#[derive(Clone, Debug)]
+pub struct Local {
+    of_slopes: bool,
+    variables: usize,
+    gradient: Program,
+    hessian: Program,
+    /// e, its first derivatives and its second derivatives in the packed order of [`Jet`].
+    results: Vec<f64>,
+    scratch: Vec<f64>,
+}
+
+/// Most outputs of a program: value, 16 first and 136 second derivatives of 16 variables.
+const MOST_OUTPUTS: usize = 153;
+const MOST_VARIABLES: usize = 16;
+
+impl Local {
+    /// The density `expression` of the variables κ, ρ¹ … ρᵈ, ∇_sκ, ∇_sρ¹ … ∇_sρᵈ, in this order, with
+    /// `fields` = 1 + d ≤ 8, for `nodes` nodes.
+    ///
+    /// # Errors
+    /// [`ExpressionError`] if a derivative is too large.
+    pub fn new(expression: &Expression, fields: usize, nodes: usize) -> Result<Self, ExpressionError> {
+        assert!(2 * fields <= MOST_VARIABLES, "at most {} fields", MOST_VARIABLES / 2);
+        let of_slopes = (fields..2 * fields).any(|variable| expression.depends_on(variable));
+        let variables = if of_slopes { 2 * fields } else { fields };
+        let first = (0..variables).map(|a| expression.derivative(a)).collect::<Result<Vec<_>, _>>()?;
+        let mut second = Vec::new();
+        for (a, by_a) in first.iter().enumerate() {
+            for b in 0..=a {
+                second.push(by_a.derivative(b)?);
+            }
+        }
+        let outputs: Vec<&Expression> = std::iter::once(expression).chain(&first).chain(&second).collect();
+        let gradient = Program::compile(&outputs[..=variables]);
+        let hessian = Program::compile(&outputs);
+        let scratch = gradient.scratch_len().max(hessian.scratch_len());
+        Ok(Self {
+            of_slopes,
+            variables,
+            gradient,
+            hessian,
+            results: vec![0.0; outputs.len() * nodes],
+            scratch: vec![0.0; scratch],
+        })
+    }
+
+    fn add(&mut self, fields: Fields<'_>, jet: &mut Jet) {
+        let nodes = fields.nodes();
+        let program = if jet.order() < Order::Hessian { &self.gradient } else { &self.hessian };
+        let inputs: [&[f64]; MOST_VARIABLES] =
+            std::array::from_fn(|k| if k < self.variables { fields.get(k) } else { &[] });
+        let mut chunks = self.results.chunks_exact_mut(nodes);
+        let mut outputs: [&mut [f64]; MOST_OUTPUTS] =
+            std::array::from_fn(|_| chunks.next().unwrap_or_default());
+        program.evaluate(&inputs[..self.variables], &mut outputs[..program.outputs()], &mut self.scratch);
+        let mut results = self.results.chunks_exact(nodes);
+        let mut next = |target: &mut [f64]| {
+            for (target, value) in target.iter_mut().zip(results.next().unwrap_or_default()) {
+                *target += value;
+            }
+        };
+        next(jet.value_mut());
+        for a in 0..self.variables {
+            next(jet.first_mut(a));
+        }
+        if jet.order() >= Order::Hessian {
+            for a in 0..self.variables {
+                for b in 0..=a {
+                    next(jet.second_mut(a, b));
+                }
+            }
+        }
+    }
+}
+
+impl EnergyTerm for Local {
+    fn name(&self) -> &'static str {
+        "local"
+    }
+
+    fn has_density(&self) -> bool {
+        !self.of_slopes
+    }
+
+    fn add_density(&mut self, fields: Fields<'_>, jet: &mut Jet) {
+        self.add(fields, jet);
+    }
+
+    fn has_slope_density(&self) -> bool {
+        self.of_slopes
+    }
+
+    fn add_slope_density(&mut self, fields: Fields<'_>, jet: &mut Jet) {
+        self.add(fields, jet);
+    }
+}

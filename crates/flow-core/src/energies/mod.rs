@@ -1,0 +1,67 @@
+//! Terms of the energy 𝓕_h.
+//!
+//! A term is a sum of up to four parts, and says only what it has: a local density e(κ, ρ), a constant
+//! coefficient of ½∫|∇_sφ|² dσ for a field φ, a local density e(κ, ρ, ∇_sκ, ∇_sρ) at the flux points, and a
+//! function of the length. The flow (`crate::flow`) turns these parts into the gradient and the second
+//! derivative of 𝓕_h in any gauge, so no term knows about metrics or transforms. See `THEORY.md`, section 3.
+
+mod agents;
+mod bending;
+mod jet;
+mod length;
+mod local;
+mod regularization;
+
+use std::fmt::Debug;
+
+pub use agents::{Agents, NodalLines};
+pub use bending::Bending;
+pub use jet::{Fields, Jet, Order};
+pub use length::Length;
+pub use local::Local;
+pub use regularization::Regularization;
+
+/// Value, first and second derivative of a function of the length.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LengthJet {
+    /// Value.
+    pub value: f64,
+    /// First derivative.
+    pub first: f64,
+    /// Second derivative.
+    pub second: f64,
+}
+
+/// One term of the discrete energy 𝓕_h(κ, g, ρ).
+pub trait EnergyTerm: Debug + Send + Sync {
+    /// Key of the term in scenes, in the output file and in Python.
+    fn name(&self) -> &'static str;
+
+    /// Whether [`EnergyTerm::add_density`] adds anything.
+    fn has_density(&self) -> bool {
+        false
+    }
+
+    /// Adds the local density e(κ, ρ) at the nodes and its derivatives up to the order of `jet`.
+    /// Scratch belongs to the term; it is sized when the term is built.
+    fn add_density(&mut self, _fields: Fields<'_>, _jet: &mut Jet) {}
+
+    /// Coefficient c of the part (c/2) ∫|∇_sφ|² dσ for field `field` (0: curvature, then the densities).
+    fn stiffness(&self, _field: usize) -> f64 {
+        0.0
+    }
+
+    /// Whether [`EnergyTerm::add_slope_density`] adds anything.
+    fn has_slope_density(&self) -> bool {
+        false
+    }
+
+    /// Adds a local density of the fields and of their slopes: `fields` holds the fields at the flux points,
+    /// then their arc-length derivatives in the same order.
+    fn add_slope_density(&mut self, _fields: Fields<'_>, _jet: &mut Jet) {}
+
+    /// The part that depends on the length alone.
+    fn of_length(&self, _length: f64) -> LengthJet {
+        LengthJet::default()
+    }
+}

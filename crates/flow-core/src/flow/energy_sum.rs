@@ -1,0 +1,239 @@
+//! The sum of the energy terms with its exact gradient and second derivative on the grid.
+//!
+//! With pointwise fields φ and length L, 𝓕_h = L⟨e⟩ + Σ c/(2L) ⟨|D₊φ|²⟩ + L⟨e′⟩ + Φ(L), ⟨·⟩ the mean over the
+//! nodes. See `THEORY.md`, eqs. (D3)–(D5).
+
+use super::curve_fields::CurveFields;
+use super::slope_energy::SlopeEnergy;
+use crate::energies::{EnergyTerm, Fields, Jet, LengthJet, Order};
+use crate::geometry::{Complex64, Layout, PeriodicGrid};
+use crate::operators::Derivative;
+
+/// Gradient of the energy, as the flow map takes it.
+#[derive(Clone, Debug)]
+pub struct IntrinsicGradient {
+    /// Variational derivatives ∂_κ𝓕, ∂_ρ𝓕 as spectra, one per field.
+    pub spectra: Vec<Complex64>,
+    /// ∂𝓕/∂|Γ| at fixed K and m.
+    pub by_length: f64,
+}
+
+/// All terms of a scene.
+#[derive(Debug)]
+pub struct EnergySum {
+    terms: Vec<Box<dyn EnergyTerm>>,
+    layout: Layout,
+    grid: PeriodicGrid,
+    derivative: Derivative,
+    stiffness: Vec<f64>,
+    jet: Jet,
+    slopes: Option<SlopeEnergy>,
+    motion: Vec<f64>,
+    motion_spectra: Vec<Complex64>,
+    product: Vec<f64>,
+}
+
+impl EnergySum {
+    /// The sum of `terms` on states of `layout`.
+    #[must_use]
+    pub fn new(
+        terms: Vec<Box<dyn EnergyTerm>>,
+        layout: Layout,
+        grid: &PeriodicGrid,
+        derivative: &Derivative,
+    ) -> Self {
+        let (nodes, fields) = (layout.nodes(), layout.fields());
+        let stiffness =
+            (0..fields).map(|field| terms.iter().map(|term| term.stiffness(field)).sum()).collect();
+        let slopes = terms
+            .iter()
+            .any(|term| term.has_slope_density())
+            .then(|| SlopeEnergy::new(layout, grid, derivative));
+        Self {
+            terms,
+            layout,
+            grid: grid.clone(),
+            derivative: derivative.clone(),
+            stiffness,
+            jet: Jet::new(nodes, fields),
+            slopes,
+            motion: vec![0.0; nodes * fields],
+            motion_spectra: vec![Complex64::default(); grid.modes() * fields],
+            product: vec![0.0; nodes],
+        }
+    }
+
+    /// Names of the terms.
+    pub fn names(&self) -> impl Iterator<Item = &'static str> + '_ {
+        self.terms.iter().map(|term| term.name())
+    }
+
+    /// Coefficients of ½∫|∇_sφ|² dσ, by field.
+    #[must_use]
+    pub fn stiffness(&self) -> &[f64] {
+        &self.stiffness
+    }
+
+    /// Pointwise second derivatives at the state evaluated last with [`EnergySum::linearise`].
+    #[must_use]
+    pub fn jet(&self) -> &Jet {
+        &self.jet
+    }
+
+    /// Sum of the functions of the length.
+    #[must_use]
+    pub fn of_length(&self, length: f64) -> LengthJet {
+        self.terms.iter().map(|term| term.of_length(length)).fold(LengthJet::default(), |a, b| LengthJet {
+            value: a.value + b.value,
+            first: a.first + b.first,
+            second: a.second + b.second,
+        })
+    }
+
+    /// Energy of each term at a state, in the order of the terms.
+    pub fn energies_by_term(&mut self, at: &CurveFields) -> Vec<f64> {
+        (0..self.terms.len()).map(|term| self.energy_of(term, at)).collect()
+    }
+
+    fn energy_of(&mut self, term: usize, at: &CurveFields) -> f64 {
+        let nodes = self.layout.nodes();
+        let mut density = Jet::new(nodes, self.layout.fields());
+        self.terms[term].add_density(Fields::new(nodes, at.pointwise()), &mut density);
+        let mut energy = at.length() * mean(density.value()) + self.terms[term].of_length(at.length()).value;
+        for field in 0..self.layout.fields() {
+            let coefficient = self.terms[term].stiffness(field);
+            if coefficient != 0.0 {
+                energy += 0.5 * coefficient / at.length() * self.slope_square(at.spectrum(field));
+            }
+        }
+        if let Some(slopes) = &mut self.slopes {
+            energy += slopes.energy_of(&mut *self.terms[term], at);
+        }
+        energy
+    }
+
+    /// ⟨|D₊φ|²⟩ by Parseval's identity.
+    fn slope_square(&self, spectrum: &[Complex64]) -> f64 {
+        self.slope_product(spectrum, spectrum)
+    }
+
+    fn slope_product(&self, a: &[Complex64], b: &[Complex64]) -> f64 {
+        let full: f64 = a
+            .iter()
+            .zip(b)
+            .zip(self.derivative.minus_laplacian())
+            .map(|((a, b), symbol)| symbol * (a.re * b.re + a.im * b.im))
+            .sum();
+        // The mean has no slope; the sawtooth, present once, was counted like the others.
+        let once = self
+            .grid
+            .sawtooth_mode()
+            .map_or(0.0, |m| self.derivative.minus_laplacian()[m] * (a[m].re * b[m].re + a[m].im * b[m].im));
+        2.0 * full - once
+    }
+
+    fn mean_product(&self, a: &[Complex64], b: &[Complex64]) -> f64 {
+        let product = |m: usize| a[m].re * b[m].re + a[m].im * b[m].im;
+        let full: f64 = a.iter().zip(b).map(|(a, b)| a.re * b.re + a.im * b.im).sum();
+        2.0 * full - product(0) - self.grid.sawtooth_mode().map_or(0.0, product)
+    }
+
+    /// Energy, and its gradient into `gradient`.
+    pub fn gradient(&mut self, at: &CurveFields, gradient: &mut IntrinsicGradient) -> f64 {
+        self.evaluate(at, Order::Gradient, gradient)
+    }
+
+    /// As [`EnergySum::gradient`], keeping the second derivatives for [`EnergySum::hessian_product`].
+    pub fn linearise(&mut self, at: &CurveFields, gradient: &mut IntrinsicGradient) -> f64 {
+        self.evaluate(at, Order::Hessian, gradient)
+    }
+
+    fn evaluate(&mut self, at: &CurveFields, order: Order, gradient: &mut IntrinsicGradient) -> f64 {
+        let (nodes, modes, length) = (self.layout.nodes(), self.grid.modes(), at.length());
+        self.jet.clear(order);
+        for term in self.terms.iter_mut().filter(|term| term.has_density()) {
+            term.add_density(Fields::new(nodes, at.pointwise()), &mut self.jet);
+        }
+        let of_length = self.of_length(length);
+        let mean_density = mean(self.jet.value());
+        let mut energy = length * mean_density + of_length.value;
+        let mut by_length = mean_density + of_length.first;
+        for field in 0..self.layout.fields() {
+            let p = &mut gradient.spectra[field * modes..(field + 1) * modes];
+            self.grid.transform(self.jet.first(field), p);
+            let coefficient = self.stiffness[field];
+            if coefficient != 0.0 {
+                let phi = at.spectrum(field);
+                let scale = coefficient / (length * length);
+                for ((p, phi), symbol) in p.iter_mut().zip(phi).zip(self.derivative.minus_laplacian()) {
+                    *p += phi * (scale * symbol);
+                }
+                let square = self.slope_square(phi);
+                energy += 0.5 * coefficient / length * square;
+                by_length -= 0.5 * scale * square;
+            }
+        }
+        if let Some(slopes) = &mut self.slopes {
+            let (value, derivative) = slopes.add_gradient(&mut self.terms, at, order, gradient);
+            energy += value;
+            by_length += derivative;
+        }
+        for field in 0..self.layout.fields() {
+            let p = &gradient.spectra[field * modes..(field + 1) * modes];
+            by_length -= self.mean_product(at.spectrum(field), p);
+        }
+        gradient.by_length = by_length;
+        energy
+    }
+
+    /// Second derivative times the motion `v` of the state vector, at the state of the last
+    /// [`EnergySum::linearise`], whose fields are `at`.
+    pub fn hessian_product(&mut self, at: &CurveFields, v: &[f64], out: &mut IntrinsicGradient) {
+        let (fields, modes, length) = (self.layout.fields(), self.grid.modes(), at.length());
+        let length_motion = v[self.layout.length_index()];
+        for ((motion, v), phi) in self.motion.iter_mut().zip(v).zip(at.pointwise()) {
+            *motion = (v - phi * length_motion) / length;
+        }
+        for field in 0..fields {
+            let spectrum = &mut self.motion_spectra[field * modes..(field + 1) * modes];
+            self.grid.transform(&self.motion[self.layout.field(field)], spectrum);
+        }
+        let mut by_length = self.of_length(length).second * length_motion;
+        for field in 0..fields {
+            self.product.fill(0.0);
+            for other in 0..fields {
+                let second = self.jet.second(field, other);
+                let motion = &self.motion[self.layout.field(other)];
+                for ((product, second), motion) in self.product.iter_mut().zip(second).zip(motion) {
+                    *product += second * motion;
+                }
+            }
+            let p = &mut out.spectra[field * modes..(field + 1) * modes];
+            self.grid.transform(&self.product, p);
+            let coefficient = self.stiffness[field];
+            if coefficient != 0.0 {
+                let (phi, motion) = (at.spectrum(field), &self.motion_spectra[field * modes..]);
+                let scale = coefficient / (length * length);
+                let shrink = 2.0 * length_motion / length;
+                let laplacian = self.derivative.minus_laplacian();
+                for (((p, motion), phi), symbol) in p.iter_mut().zip(motion).zip(phi).zip(laplacian) {
+                    *p += (motion - phi * shrink) * (scale * symbol);
+                }
+                let cross = self.slope_product(phi, &self.motion_spectra[field * modes..(field + 1) * modes]);
+                by_length += scale * (self.slope_square(phi) / length * length_motion - 2.0 * cross);
+            }
+        }
+        if let Some(slopes) = &mut self.slopes {
+            by_length += slopes.add_hessian_product(at, &self.motion_spectra, length_motion, out);
+        }
+        for field in 0..fields {
+            by_length -= self.mean_product(at.spectrum(field), &out.spectra[field * modes..(field + 1) * modes]);
+        }
+        out.by_length = by_length;
+    }
+}
+
+/// Mean of nodal values.
+pub(super) fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}

@@ -1,0 +1,248 @@
+//! The right-hand side −𝓚(X)∇𝓕_h and the implicit operator −𝓚 Hess 𝓕_h. See `THEORY.md`, eqs. (F6) and (F7).
+
+use super::curve_fields::CurveFields;
+use super::density_mobility::DensityMobility;
+use super::energy_sum::{EnergySum, IntrinsicGradient};
+use super::flow_map::FlowMap;
+use super::normal_mobility::NormalMobility;
+use crate::geometry::{Complex64, Layout};
+
+/// What an evaluation of the flow tells besides the rates.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rate {
+    /// Energy 𝓕_h.
+    pub energy: f64,
+    /// Dissipation ⟨f, 𝓑f⟩ + ⟨∂_ρ𝓕, 𝓖∂_ρ𝓕⟩ ≥ 0.
+    pub dissipation: f64,
+}
+
+/// A gradient flow on one grid, with all its scratch.
+#[derive(Debug)]
+pub struct GradientFlow {
+    layout: Layout,
+    map: FlowMap,
+    energy: EnergySum,
+    normal_mobility: Box<dyn NormalMobility>,
+    density_mobilities: Vec<DensityMobility>,
+    current: CurveFields,
+    frozen: CurveFields,
+    gradient: IntrinsicGradient,
+    force: Vec<f64>,
+    velocity: Vec<f64>,
+    rates: Vec<Complex64>,
+}
+
+impl GradientFlow {
+    /// The flow of `energy` under the mobilities, one density mobility per density.
+    #[must_use]
+    pub fn new(
+        mut map: FlowMap,
+        energy: EnergySum,
+        layout: Layout,
+        normal_mobility: Box<dyn NormalMobility>,
+        density_mobilities: Vec<DensityMobility>,
+    ) -> Self {
+        assert_eq!(density_mobilities.len(), layout.densities(), "one mobility per density");
+        let (grid, derivative) = map.grid_and_derivative();
+        let current = CurveFields::new(layout, grid, derivative);
+        let spectra = vec![Complex64::default(); layout.fields() * grid.modes()];
+        Self {
+            layout,
+            map,
+            energy,
+            normal_mobility,
+            density_mobilities,
+            frozen: current.clone(),
+            current,
+            gradient: IntrinsicGradient { spectra: spectra.clone(), by_length: 0.0 },
+            force: vec![0.0; layout.nodes()],
+            velocity: vec![0.0; layout.nodes()],
+            rates: spectra,
+        }
+    }
+
+    /// Shape of the state vector.
+    #[must_use]
+    pub fn layout(&self) -> Layout {
+        self.layout
+    }
+
+    /// The terms of the energy.
+    pub fn energy_sum(&mut self) -> &mut EnergySum {
+        &mut self.energy
+    }
+
+    /// The terms of the energy, to read.
+    #[must_use]
+    pub fn energy_terms(&self) -> &EnergySum {
+        &self.energy
+    }
+
+    /// Mobilities of the densities.
+    #[must_use]
+    pub fn density_mobilities(&self) -> &[DensityMobility] {
+        &self.density_mobilities
+    }
+
+    /// Fields at the linearisation.
+    #[must_use]
+    pub fn frozen(&self) -> &CurveFields {
+        &self.frozen
+    }
+
+    /// Grid and derivative.
+    pub fn grid_and_derivative(
+        &mut self,
+    ) -> (&mut crate::geometry::PeriodicGrid, &crate::operators::Derivative) {
+        self.map.grid_and_derivative()
+    }
+
+    /// Rate of the state `y` into `rate`.
+    pub fn rate(&mut self, y: &[f64], rate: &mut [f64]) -> Rate {
+        let (grid, derivative) = self.map.grid_and_derivative();
+        self.current.set(y, grid, derivative);
+        let energy = self.energy.gradient(&self.current, &mut self.gradient);
+        self.descend(false);
+        let dissipation = self.dissipation();
+        self.write_rates(false, rate);
+        Rate { energy, dissipation }
+    }
+
+    /// Energy and dissipation of the state `y`; cheaper than a rate.
+    pub fn dissipation_at(&mut self, y: &[f64]) -> Rate {
+        let (grid, derivative) = self.map.grid_and_derivative();
+        self.current.set(y, grid, derivative);
+        let energy = self.energy.gradient(&self.current, &mut self.gradient);
+        self.descend(false);
+        Rate { energy, dissipation: self.dissipation() }
+    }
+
+    /// Energy of the state `y`.
+    pub fn energy_at(&mut self, y: &[f64]) -> f64 {
+        let (grid, derivative) = self.map.grid_and_derivative();
+        self.current.set(y, grid, derivative);
+        self.energy.gradient(&self.current, &mut self.gradient)
+    }
+
+    /// Energy of each term at the state `y`.
+    pub fn energies_by_term(&mut self, y: &[f64]) -> Vec<f64> {
+        let (grid, derivative) = self.map.grid_and_derivative();
+        self.current.set(y, grid, derivative);
+        self.energy.energies_by_term(&self.current)
+    }
+
+    /// Gradient of the energy at the state evaluated last.
+    #[must_use]
+    pub fn gradient(&self) -> &IntrinsicGradient {
+        &self.gradient
+    }
+
+    /// Normal velocity V at the state evaluated last.
+    #[must_use]
+    pub fn normal_velocity(&self) -> &[f64] {
+        &self.velocity
+    }
+
+    /// Tangential velocity W at the state evaluated last.
+    pub fn tangential_velocity(&mut self, w: &mut [f64]) {
+        self.map.tangential_velocity(&self.current, &self.velocity, w);
+    }
+
+    /// Freezes the implicit operator −𝓚 Hess 𝓕_h at `y`.
+    pub fn linearise(&mut self, y: &[f64]) {
+        let (grid, derivative) = self.map.grid_and_derivative();
+        self.frozen.set(y, grid, derivative);
+        self.energy.linearise(&self.frozen, &mut self.gradient);
+    }
+
+    /// Product of the frozen −𝓚 Hess 𝓕_h with `v`.
+    pub fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
+        self.energy.hessian_product(&self.frozen, v, &mut self.gradient);
+        self.descend(true);
+        self.write_rates(true, out);
+    }
+
+    /// Product of the frozen Hess 𝓕_h with `v`, as a vector dual to the state: ⟨Hess v, w⟩ is the mean over the
+    /// nodes of the products of the fields plus the product of the lengths.
+    pub fn hessian_product(&mut self, v: &[f64], out: &mut [f64]) {
+        self.energy.hessian_product(&self.frozen, v, &mut self.gradient);
+        self.write_gradient(out);
+    }
+
+    /// Gradient of the energy at `y` as a vector dual to the state (see [`GradientFlow::hessian_product`]).
+    pub fn gradient_at(&mut self, y: &[f64], out: &mut [f64]) -> f64 {
+        let energy = self.energy_at(y);
+        self.write_gradient(out);
+        energy
+    }
+
+    fn write_gradient(&mut self, out: &mut [f64]) {
+        let (grid, _) = self.map.grid_and_derivative();
+        let modes = grid.modes();
+        for field in 0..self.layout.fields() {
+            let spectrum = &mut self.rates[field * modes..(field + 1) * modes];
+            spectrum.copy_from_slice(&self.gradient.spectra[field * modes..(field + 1) * modes]);
+            grid.synthesise(spectrum, &mut out[self.layout.field(field)]);
+        }
+        out[self.layout.length_index()] = self.gradient.by_length;
+    }
+
+    /// 𝓚 applied to the dual vector `dual`, at the frozen state.
+    pub fn apply_mobility(&mut self, dual: &[f64], out: &mut [f64]) {
+        let (grid, _) = self.map.grid_and_derivative();
+        let modes = grid.modes();
+        for field in 0..self.layout.fields() {
+            let spectrum = &mut self.gradient.spectra[field * modes..(field + 1) * modes];
+            grid.transform(&dual[self.layout.field(field)], spectrum);
+        }
+        self.gradient.by_length = dual[self.layout.length_index()];
+        self.descend(true);
+        self.write_rates(true, out);
+        out.iter_mut().for_each(|value| *value = -*value);
+    }
+
+    /// Force and normal velocity of the gradient at hand.
+    fn descend(&mut self, frozen: bool) {
+        let at = if frozen { &self.frozen } else { &self.current };
+        self.map.force(at, &self.gradient.spectra, self.gradient.by_length, &mut self.force);
+        self.normal_mobility.apply(at, &self.force, &mut self.velocity);
+    }
+
+    fn dissipation(&mut self) -> f64 {
+        let length = self.current.length();
+        let nodes = self.layout.nodes() as f64;
+        let normal: f64 = self.force.iter().zip(&self.velocity).map(|(f, v)| f * v).sum();
+        let mut sum = length * normal / nodes;
+        let (grid, derivative) = self.map.grid_and_derivative();
+        let modes = grid.modes();
+        for (density, mobility) in self.density_mobilities.iter().enumerate() {
+            let mu = &self.gradient.spectra[(density + 1) * modes..(density + 2) * modes];
+            let mut square = 0.0;
+            for (mode, (mu, symbol)) in mu.iter().zip(derivative.minus_laplacian()).enumerate() {
+                square += grid.multiplicity(mode) * mobility.symbol(*symbol, length) * mu.norm_sqr();
+            }
+            sum += length * square;
+        }
+        sum
+    }
+
+    /// Rates of the velocity and of the gradient at hand.
+    fn write_rates(&mut self, frozen: bool, out: &mut [f64]) {
+        let at = if frozen { &self.frozen } else { &self.current };
+        let length = at.length();
+        out[self.layout.length_index()] = self.map.rates(at, &self.velocity, &mut self.rates);
+        let (grid, derivative) = self.map.grid_and_derivative();
+        let modes = grid.modes();
+        for field in 0..self.layout.fields() {
+            let rate = &mut self.rates[field * modes..(field + 1) * modes];
+            if field > 0 {
+                let mobility = self.density_mobilities[field - 1];
+                let mu = &self.gradient.spectra[field * modes..(field + 1) * modes];
+                for ((rate, mu), symbol) in rate.iter_mut().zip(mu).zip(derivative.minus_laplacian()) {
+                    *rate -= mu * (length * mobility.symbol(*symbol, length));
+                }
+            }
+            grid.synthesise(rate, &mut out[self.layout.field(field)]);
+        }
+    }
+}

@@ -1,0 +1,18 @@
+//! The gradient flow dX/dt = −𝓚(X)∇𝓕_h with 𝓚 = A𝓑Aᵀ + 𝓖. See `THEORY.md`, section 4.
+
+mod curve_fields;
+mod density_mobility;
+mod energy_sum;
+mod flow_map;
+mod gradient_flow;
+mod normal_mobility;
+mod preconditioner;
+mod slope_energy;
+
+pub use curve_fields::CurveFields;
+pub use density_mobility::DensityMobility;
+pub use energy_sum::{EnergySum, IntrinsicGradient};
+pub use flow_map::FlowMap;
+pub use gradient_flow::{GradientFlow, Rate};
+pub use normal_mobility::{Identity, NormalMobility};
+pub use preconditioner::{LinearSolver, Preconditioner};

@@ -1,0 +1,267 @@
+//! The local part of I − γJ with variable coefficients, by second differences on a grid of at most
+//! [`MOST_NODES`] nodes, corrected on both sides by the root of the ratio of the symbols.
+//!
+//! Second differences alone are a poor approximation of the Fourier derivative at high modes: the ratio of
+//! the constant-coefficient symbols takes that out. Modes that the coarse grid does not hold are left to the
+//! Fourier symbol. The tangential (non-local) part is of order 3 against 6 and left to the Krylov iteration.
+
+use std::f64::consts::TAU;
+use std::fmt::Debug;
+
+use super::super::gradient_flow::GradientFlow;
+use super::fourier::mobility_symbol;
+use crate::geometry::{Complex64, Layout, PeriodicGrid};
+use crate::operators::{CyclicBanded, FactorisationError};
+
+/// More nodes make the assembled sixth-order band inaccurate, and buy nothing.
+const MOST_NODES: usize = 1024;
+
+/// A banded approximate inverse acting on spectra.
+pub trait Banded: Debug + Send {
+    /// Number of modes treated.
+    fn modes(&self) -> usize;
+    /// Factorises at the frozen state.
+    fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> Result<(), FactorisationError>;
+    /// Applies the inverse to the low modes of all fields.
+    fn apply(&mut self, spectra: &mut [Complex64]);
+}
+
+/// Builds the solver for the number of fields, up to four; none beyond.
+pub fn build(layout: Layout) -> Option<Box<dyn Banded>> {
+    match layout.fields() {
+        1 => Some(Box::new(LocalPart::<1, 3>::new(layout.nodes()))),
+        2 => Some(Box::new(LocalPart::<2, 6>::new(layout.nodes()))),
+        3 => Some(Box::new(LocalPart::<3, 9>::new(layout.nodes()))),
+        4 => Some(Box::new(LocalPart::<4, 12>::new(layout.nodes()))),
+        _ => None,
+    }
+}
+
+/// Coefficients of all `F` fields at one node.
+type Row<const F: usize> = [f64; F];
+
+#[derive(Debug)]
+struct LocalPart<const F: usize, const B: usize> {
+    fine_modes: usize,
+    grid: PeriodicGrid,
+    matrix: CyclicBanded<B>,
+    /// Root of the ratio of the symbols, by field and mode.
+    correction: Vec<f64>,
+    /// Coefficients on the coarse grid: fields, then second derivatives.
+    coefficients: Vec<f64>,
+    gradient_rows: Vec<[[Row<F>; 3]; F]>,
+    velocity_rows: Vec<[Row<F>; 5]>,
+    interleaved: Vec<f64>,
+    values: Vec<f64>,
+    spectrum: Vec<Complex64>,
+    fine_spectrum: Vec<Complex64>,
+}
+
+impl<const F: usize, const B: usize> LocalPart<F, B> {
+    fn new(nodes: usize) -> Self {
+        let coarse = nodes.min(MOST_NODES).max(8);
+        let grid = PeriodicGrid::new(coarse);
+        let fine_modes = nodes / 2 + 1;
+        Self {
+            fine_modes,
+            matrix: CyclicBanded::new(coarse * F),
+            correction: vec![1.0; F * grid.modes()],
+            coefficients: vec![0.0; (F + F * (F + 1) / 2) * coarse],
+            gradient_rows: vec![[[[0.0; F]; 3]; F]; coarse],
+            velocity_rows: vec![[[0.0; F]; 5]; coarse],
+            interleaved: vec![0.0; coarse * F],
+            values: vec![0.0; coarse],
+            spectrum: vec![Complex64::default(); grid.modes()],
+            fine_spectrum: vec![Complex64::default(); fine_modes],
+            grid,
+        }
+    }
+
+    /// Coefficients at the coarse nodes.
+    fn restrict(&mut self, flow: &mut GradientFlow) {
+        let coarse = self.grid.nodes();
+        let low = self.grid.modes();
+        for field in 0..F {
+            self.spectrum.copy_from_slice(&flow.frozen().spectrum(field)[..low]);
+            let range = field * coarse..(field + 1) * coarse;
+            self.grid.synthesise(&mut self.spectrum, &mut self.coefficients[range]);
+        }
+        let mut block = F;
+        for a in 0..F {
+            for b in 0..=a {
+                let range = block * coarse..(block + 1) * coarse;
+                if self.fine_modes == low {
+                    self.coefficients[range].copy_from_slice(flow.energy_terms().jet().second(a, b));
+                } else {
+                    let mut grid = flow.grid_and_derivative().0.clone();
+                    grid.transform(flow.energy_terms().jet().second(a, b), &mut self.fine_spectrum);
+                    self.spectrum.copy_from_slice(&self.fine_spectrum[..low]);
+                    self.grid.synthesise(&mut self.spectrum, &mut self.coefficients[range]);
+                }
+                block += 1;
+            }
+        }
+    }
+
+    /// Symbol of the diagonal block of `field` with mean coefficients, for a symbol of −∂_s².
+    fn diagonal_symbol(
+        flow: &GradientFlow,
+        field: usize,
+        mean: f64,
+        gamma: f64,
+        minus_laplacian: f64,
+    ) -> f64 {
+        let length = flow.frozen().length();
+        let stiffness = flow.energy_terms().stiffness()[field] * minus_laplacian / (length * length);
+        1.0 + gamma * mobility_symbol(flow, field, minus_laplacian, length) * (stiffness + mean)
+    }
+
+    fn set_correction(&mut self, flow: &mut GradientFlow, gamma: f64) {
+        let (coarse, modes) = (self.grid.nodes(), self.grid.modes());
+        for field in 0..F {
+            let second = flow.energy_terms().jet().second(field, field);
+            let mean = (second.iter().sum::<f64>() / second.len() as f64).max(0.0);
+            for mode in 0..modes {
+                let exact = flow.grid_and_derivative().1.minus_laplacian()[mode];
+                let half = 0.5 * TAU * mode as f64 / coarse as f64;
+                let difference = (2.0 * coarse as f64 * half.sin()).powi(2);
+                let ratio = Self::diagonal_symbol(flow, field, mean, gamma, difference)
+                    / Self::diagonal_symbol(flow, field, mean, gamma, exact);
+                self.correction[field * modes + mode] = ratio.sqrt();
+            }
+        }
+    }
+
+    fn second(&self, i: usize, a: usize, b: usize) -> f64 {
+        let (low, high) = if a < b { (a, b) } else { (b, a) };
+        self.coefficients[(F + high * (high + 1) / 2 + low) * self.grid.nodes() + i]
+    }
+
+    /// Stencils of the gradient p = Hess·φ over the nodes i−1, i, i+1, and of the velocity
+    /// V = Δp₀ + κΣφp over i−2 … i+2.
+    fn set_stencils(&mut self, stiffness: &[f64], scale: f64) {
+        let nodes = self.grid.nodes();
+        for i in 0..nodes {
+            for f in 0..F {
+                let mut stencil = [[0.0; F]; 3];
+                for g in 0..F {
+                    stencil[1][g] = self.second(i, f, g);
+                }
+                let c = scale * stiffness[f];
+                stencil[0][f] -= c;
+                stencil[1][f] += 2.0 * c;
+                stencil[2][f] -= c;
+                self.gradient_rows[i][f] = stencil;
+            }
+        }
+        for i in 0..nodes {
+            let kappa = self.coefficients[i];
+            let mut stencil = [[0.0; F]; 5];
+            let neighbours = [(i + nodes - 1) % nodes, i, (i + 1) % nodes];
+            for (shift, (node, weight)) in neighbours.iter().zip([1.0, -2.0, 1.0]).enumerate() {
+                let p = &self.gradient_rows[*node][0];
+                for k in 0..3 {
+                    for g in 0..F {
+                        stencil[shift + k][g] += scale * weight * p[k][g];
+                    }
+                }
+            }
+            for f in 0..F {
+                let factor = kappa * self.coefficients[f * nodes + i];
+                for k in 0..3 {
+                    for g in 0..F {
+                        stencil[1 + k][g] += factor * self.gradient_rows[i][f][k][g];
+                    }
+                }
+            }
+            self.velocity_rows[i] = stencil;
+        }
+    }
+
+    /// Fills I − γJ: κ̇ = −ΔV − κ²V, ρ̇ = −κρV + 𝓖-part Δp.
+    fn fill(&mut self, gamma: f64, scale: f64) {
+        let nodes = self.grid.nodes();
+        self.matrix.clear();
+        for i in 0..nodes {
+            let kappa = self.coefficients[i];
+            let neighbours = [(i + nodes - 1) % nodes, i, (i + 1) % nodes];
+            for f in 0..F {
+                let mut row = [[0.0; F]; 7];
+                row[3][f] = 1.0;
+                let damping = gamma * kappa * self.coefficients[f * nodes + i];
+                for k in 0..5 {
+                    for g in 0..F {
+                        row[1 + k][g] += damping * self.velocity_rows[i][k][g];
+                    }
+                }
+                for (shift, (node, weight)) in neighbours.iter().zip([1.0, -2.0, 1.0]).enumerate() {
+                    let factor = gamma * scale * weight;
+                    if f == 0 {
+                        for k in 0..5 {
+                            for g in 0..F {
+                                row[shift + k][g] += factor * self.velocity_rows[*node][k][g];
+                            }
+                        }
+                    } else {
+                        for k in 0..3 {
+                            for g in 0..F {
+                                row[1 + shift + k][g] -= factor * self.gradient_rows[*node][f][k][g];
+                            }
+                        }
+                    }
+                }
+                for (k, entries) in row.iter().enumerate() {
+                    for (g, value) in entries.iter().enumerate() {
+                        let offset = (k as isize - 3) * F as isize + g as isize - f as isize;
+                        if offset.unsigned_abs() <= B {
+                            self.matrix.set(i * F + f, offset, *value);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
+    fn modes(&self) -> usize {
+        self.grid.modes()
+    }
+
+    fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> Result<(), FactorisationError> {
+        self.restrict(flow);
+        self.set_correction(flow, gamma);
+        let scale = (self.grid.nodes() as f64 / flow.frozen().length()).powi(2);
+        self.set_stencils(flow.energy_terms().stiffness(), scale);
+        self.fill(gamma, scale);
+        self.matrix.factorise()
+    }
+
+    fn apply(&mut self, spectra: &mut [Complex64]) {
+        let low = self.grid.modes();
+        for field in 0..F {
+            let correction = &self.correction[field * low..(field + 1) * low];
+            let spectrum = &spectra[field * self.fine_modes..];
+            for ((target, value), correction) in self.spectrum.iter_mut().zip(spectrum).zip(correction) {
+                *target = value * correction;
+            }
+            self.grid.synthesise(&mut self.spectrum, &mut self.values);
+            for (target, value) in self.interleaved.iter_mut().skip(field).step_by(F).zip(&self.values) {
+                *target = *value;
+            }
+        }
+        self.matrix.solve(&mut self.interleaved);
+        for field in 0..F {
+            for (value, target) in self.values.iter_mut().zip(self.interleaved.iter().skip(field).step_by(F)) {
+                *value = *target;
+            }
+            self.grid.transform(&self.values, &mut self.spectrum);
+            let correction = &self.correction[field * low..(field + 1) * low];
+            let spectrum = &mut spectra[field * self.fine_modes..];
+            for ((target, value), correction) in spectrum.iter_mut().zip(&self.spectrum).zip(correction) {
+                *target = value * correction;
+            }
+            // The mean of a conserved field is conserved by I − γJ.
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! The symbol of I − γJ with coefficients frozen at their means: one small block per mode.
+
+use super::super::gradient_flow::GradientFlow;
+use crate::geometry::{Complex64, Layout};
+
+/// Inverse blocks, one `fields × fields` matrix per mode, row by row.
+#[derive(Clone, Debug)]
+pub struct FourierSymbol {
+    fields: usize,
+    modes: usize,
+    inverse: Vec<f64>,
+    scratch: Vec<Complex64>,
+}
+
+/// Symbols of 𝓚 by field: (−Δ_s)² on the curvature, 𝓖 on the densities.
+pub fn mobility_symbol(flow: &GradientFlow, field: usize, minus_laplacian: f64, length: f64) -> f64 {
+    match field {
+        0 => (minus_laplacian / (length * length)).powi(2),
+        _ => flow.density_mobilities()[field - 1].symbol(minus_laplacian, length),
+    }
+}
+
+impl FourierSymbol {
+    /// Room for the blocks.
+    #[must_use]
+    pub fn new(layout: Layout, modes: usize) -> Self {
+        let fields = layout.fields();
+        Self {
+            fields,
+            modes,
+            inverse: vec![0.0; fields * fields * modes],
+            scratch: vec![Complex64::default(); fields],
+        }
+    }
+
+    /// Inverts the blocks at the frozen state of `flow`.
+    pub fn set(&mut self, flow: &mut GradientFlow, gamma: f64) {
+        let (fields, length) = (self.fields, flow.frozen().length());
+        let laplacian = flow.grid_and_derivative().1.minus_laplacian().to_vec();
+        let jet = flow.energy_terms().jet();
+        let mean = |a: usize, b: usize| jet.second(a, b).iter().sum::<f64>() / jet.second(a, b).len() as f64;
+        let mut means = vec![0.0; fields * fields];
+        for a in 0..fields {
+            for b in 0..fields {
+                // A concave mean would make the block singular; a preconditioner may leave it out.
+                means[a * fields + b] = if a == b { mean(a, a).max(0.0) } else { mean(a, b) };
+            }
+        }
+        let mut block = vec![0.0; fields * fields];
+        for (mode, symbol) in laplacian.iter().enumerate() {
+            for a in 0..fields {
+                let mobility = gamma * mobility_symbol(flow, a, *symbol, length);
+                for b in 0..fields {
+                    let stiffness =
+                        if a == b { flow.energy_terms().stiffness()[a] * symbol / (length * length) } else { 0.0 };
+                    let identity = if a == b { 1.0 } else { 0.0 };
+                    block[a * fields + b] = identity + mobility * (means[a * fields + b] + stiffness);
+                }
+            }
+            let target = &mut self.inverse[mode * fields * fields..(mode + 1) * fields * fields];
+            if !invert(&mut block, fields, target) {
+                for a in 0..fields {
+                    for b in 0..fields {
+                        target[a * fields + b] = if a == b { 1.0 } else { 0.0 };
+                    }
+                }
+            }
+        }
+    }
+
+    /// Applies the inverse to the modes from `first` on.
+    pub fn apply(&mut self, spectra: &mut [Complex64], first: usize) {
+        let (fields, modes) = (self.fields, self.modes);
+        match fields {
+            1 => {
+                for (value, inverse) in spectra.iter_mut().zip(&self.inverse).skip(first) {
+                    *value *= *inverse;
+                }
+            }
+            2 => {
+                let (kappa, rho) = spectra.split_at_mut(modes);
+                let blocks = self.inverse.chunks_exact(4);
+                for ((kappa, rho), block) in kappa.iter_mut().zip(rho).zip(blocks).skip(first) {
+                    let (a, b) = (*kappa, *rho);
+                    *kappa = a * block[0] + b * block[1];
+                    *rho = a * block[2] + b * block[3];
+                }
+            }
+            _ => {
+                for mode in first..modes {
+                    let block = &self.inverse[mode * fields * fields..(mode + 1) * fields * fields];
+                    for a in 0..fields {
+                        self.scratch[a] =
+                            (0..fields).map(|b| spectra[b * modes + mode] * block[a * fields + b]).sum();
+                    }
+                    for a in 0..fields {
+                        spectra[a * modes + mode] = self.scratch[a];
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Inverts a small matrix by Gauss–Jordan elimination with pivoting; false if it is singular.
+fn invert(matrix: &mut [f64], size: usize, inverse: &mut [f64]) -> bool {
+    inverse.fill(0.0);
+    for a in 0..size {
+        inverse[a * size + a] = 1.0;
+    }
+    for column in 0..size {
+        let mut pivot = column;
+        for row in column..size {
+            if matrix[row * size + column].abs() > matrix[pivot * size + column].abs() {
+                pivot = row;
+            }
+        }
+        let value = matrix[pivot * size + column];
+        if value == 0.0 || !value.is_finite() {
+            return false;
+        }
+        for k in 0..size {
+            matrix.swap(pivot * size + k, column * size + k);
+            inverse.swap(pivot * size + k, column * size + k);
+        }
+        for k in 0..size {
+            matrix[column * size + k] /= value;
+            inverse[column * size + k] /= value;
+        }
+        for row in (0..size).filter(|row| *row != column) {
+            let factor = matrix[row * size + column];
+            for k in 0..size {
+                matrix[row * size + k] -= factor * matrix[column * size + k];
+                inverse[row * size + k] -= factor * inverse[column * size + k];
+            }
+        }
+    }
+    true
+}

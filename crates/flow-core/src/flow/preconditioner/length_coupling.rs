@@ -1,0 +1,72 @@
+//! Couples the length into a preconditioner of the fields, exactly for stiff functions of the length.
+//!
+//! Hess 𝓕 = H₀ + Φ″ e eᵀ with e the direction of |Γ|, so I + γ𝓚Hess 𝓕 is a rank-one change of I + γ𝓚H₀ by
+//! γΦ″ (𝓚e) eᵀ: Sherman–Morrison. The row of the length in I + γ𝓚H₀ is eᵀ + γ(H₀𝓚e)ᵀ.
+
+use super::super::gradient_flow::GradientFlow;
+
+/// The rank-one correction.
+#[derive(Clone, Debug)]
+pub struct LengthCoupling {
+    gamma: f64,
+    nodes: usize,
+    /// 𝓚e.
+    direction: Vec<f64>,
+    /// H₀𝓚e.
+    row: Vec<f64>,
+    /// P₀𝓚e.
+    response: Vec<f64>,
+    curvature: f64,
+}
+
+impl LengthCoupling {
+    /// Room for states of length `size`.
+    #[must_use]
+    pub fn new(size: usize) -> Self {
+        let zero = vec![0.0; size];
+        Self { gamma: 0.0, nodes: 1, direction: zero.clone(), row: zero.clone(), response: zero, curvature: 0.0 }
+    }
+
+    /// Sets the coupling at the frozen state, given the inverse of the fields.
+    pub fn set(
+        &mut self,
+        flow: &mut GradientFlow,
+        gamma: f64,
+        mut inverse: impl FnMut(&mut GradientFlow, &mut [f64]),
+    ) {
+        let layout = flow.layout();
+        let last = layout.length_index();
+        self.nodes = layout.nodes();
+        self.gamma = gamma;
+        self.curvature = flow.energy_terms().of_length(flow.frozen().length()).second;
+        self.row.fill(0.0);
+        self.row[last] = 1.0;
+        flow.apply_mobility(&self.row, &mut self.direction);
+        flow.hessian_product(&self.direction, &mut self.row);
+        self.row[last] -= self.curvature * self.direction[last];
+        self.response.copy_from_slice(&self.direction);
+        inverse(flow, &mut self.response);
+        let mut response = std::mem::take(&mut self.response);
+        self.couple_row(&mut response);
+        self.response = response;
+    }
+
+    /// Completes x = P₀r by the row of the length.
+    fn couple_row(&self, x: &mut [f64]) {
+        let last = x.len() - 1;
+        let sum: f64 = self.row[..last].iter().zip(&x[..last]).map(|(row, x)| row * x).sum();
+        let diagonal = 1.0 + self.gamma * self.row[last].max(0.0);
+        x[last] = (x[last] - self.gamma * sum / self.nodes as f64) / diagonal;
+    }
+
+    /// Completes the preconditioned fields in place.
+    pub fn apply(&self, x: &mut [f64]) {
+        self.couple_row(x);
+        let last = x.len() - 1;
+        let weight = self.gamma * self.curvature;
+        let factor = weight * x[last] / (1.0 + weight * self.response[last]);
+        for (x, response) in x.iter_mut().zip(&self.response) {
+            *x -= factor * response;
+        }
+    }
+}

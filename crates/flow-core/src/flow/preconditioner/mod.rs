@@ -1,0 +1,130 @@
+//! Approximate inverses of I − γJ, J = −𝓚 Hess 𝓕_h. See `THEORY.md`, section 5.
+
+mod banded;
+mod dense;
+mod fourier;
+mod length_coupling;
+
+use serde::{Deserialize, Serialize};
+
+use super::gradient_flow::GradientFlow;
+use crate::geometry::Complex64;
+use crate::operators::FactorisationError;
+use banded::Banded;
+use dense::Dense;
+use fourier::FourierSymbol;
+use length_coupling::LengthCoupling;
+
+/// How the linear systems of the implicit steps are preconditioned.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LinearSolver {
+    /// Fourier while its Krylov iterations are few, banded once they are not.
+    #[default]
+    Auto,
+    /// The symbol with the coefficients frozen at their means, diagonal in Fourier space.
+    Fourier,
+    /// A banded factorisation with variable coefficients, corrected by the ratio of the symbols.
+    Banded,
+    /// A dense factorisation of the exact operator, for few nodes.
+    Dense,
+}
+
+/// An approximate inverse for the fields; the length is coupled in by [`LengthCoupling`].
+#[derive(Debug)]
+enum FieldInverse {
+    Fourier(FourierSymbol),
+    Banded(Box<dyn Banded>, FourierSymbol),
+    Dense(Dense),
+}
+
+/// A preconditioner for one gradient flow.
+#[derive(Debug)]
+pub struct Preconditioner {
+    inverse: FieldInverse,
+    coupling: Option<LengthCoupling>,
+    spectra: Vec<Complex64>,
+}
+
+impl Preconditioner {
+    /// A preconditioner of the given kind; `Auto` starts as Fourier.
+    #[must_use]
+    pub fn new(kind: LinearSolver, flow: &mut GradientFlow) -> Self {
+        let layout = flow.layout();
+        let modes = flow.grid_and_derivative().0.modes();
+        let length_curvature = flow.energy_terms().of_length(1.0).second;
+        let inverse = match kind {
+            LinearSolver::Auto | LinearSolver::Fourier => FieldInverse::Fourier(FourierSymbol::new(layout, modes)),
+            LinearSolver::Banded => match banded::build(layout) {
+                Some(banded) => FieldInverse::Banded(banded, FourierSymbol::new(layout, modes)),
+                None => FieldInverse::Fourier(FourierSymbol::new(layout, modes)),
+            },
+            LinearSolver::Dense => FieldInverse::Dense(Dense::new(layout)),
+        };
+        let whole = matches!(inverse, FieldInverse::Dense(_));
+        Self {
+            inverse,
+            coupling: (length_curvature != 0.0 && !whole).then(|| LengthCoupling::new(layout.len())),
+            spectra: vec![Complex64::default(); layout.fields() * modes],
+        }
+    }
+
+    /// Whether a banded factorisation exists for states of this flow.
+    #[must_use]
+    pub fn banded_exists(flow: &GradientFlow) -> bool {
+        banded::build(flow.layout()).is_some()
+    }
+
+    /// Factorises I − γJ at the frozen state of `flow`.
+    ///
+    /// # Errors
+    /// [`FactorisationError`] if a pivot vanishes; a smaller γ helps.
+    pub fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> Result<(), FactorisationError> {
+        match &mut self.inverse {
+            FieldInverse::Fourier(symbol) => symbol.set(flow, gamma),
+            FieldInverse::Banded(banded, symbol) => {
+                symbol.set(flow, gamma);
+                banded.factorise(flow, gamma)?;
+            }
+            FieldInverse::Dense(dense) => dense.factorise(flow, gamma)?,
+        }
+        if let Some(mut coupling) = self.coupling.take() {
+            coupling.set(flow, gamma, |flow, r| self.apply_to_fields(flow, r));
+            self.coupling = Some(coupling);
+        }
+        Ok(())
+    }
+
+    /// Overwrites `r` by the approximate solution of (I − γJ)x = r.
+    pub fn apply(&mut self, flow: &mut GradientFlow, r: &mut [f64]) {
+        self.apply_to_fields(flow, r);
+        if let Some(coupling) = &self.coupling {
+            coupling.apply(r);
+        }
+    }
+
+    fn apply_to_fields(&mut self, flow: &mut GradientFlow, r: &mut [f64]) {
+        let layout = flow.layout();
+        let (grid, _) = flow.grid_and_derivative();
+        let modes = grid.modes();
+        if let FieldInverse::Dense(dense) = &self.inverse {
+            dense.apply(r);
+            return;
+        }
+        for field in 0..layout.fields() {
+            grid.transform(&r[layout.field(field)], &mut self.spectra[field * modes..(field + 1) * modes]);
+        }
+        match &mut self.inverse {
+            FieldInverse::Fourier(symbol) => symbol.apply(&mut self.spectra, 0),
+            FieldInverse::Banded(banded, symbol) => {
+                let low = banded.modes();
+                banded.apply(&mut self.spectra);
+                symbol.apply(&mut self.spectra, low);
+            }
+            FieldInverse::Dense(_) => {}
+        }
+        for field in 0..layout.fields() {
+            grid.synthesise(&mut self.spectra[field * modes..(field + 1) * modes], &mut r[layout.field(field)]);
+        }
+    }
+}

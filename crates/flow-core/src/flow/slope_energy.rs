@@ -1,0 +1,193 @@
+//! The part of the energy that depends on slopes, L⟨e′(φ, ∇_sφ)⟩ at the flux points, with its exact
+//! derivatives: p += Mᵀe′_φ + D₊ᵀe′_σ/L. Built only if a term has it. See `THEORY.md`, eq. (D6).
+
+use super::curve_fields::CurveFields;
+use super::energy_sum::{IntrinsicGradient, mean};
+use crate::energies::{EnergyTerm, Fields, Jet, Order};
+use crate::geometry::{Complex64, Layout, PeriodicGrid};
+use crate::operators::Derivative;
+
+/// Scratch and linearisation of the slope part.
+#[derive(Debug)]
+pub struct SlopeEnergy {
+    layout: Layout,
+    grid: PeriodicGrid,
+    derivative: Derivative,
+    jet: Jet,
+    /// Fields, then slopes, at the flux points.
+    fields: Vec<f64>,
+    /// Slopes and ∂e′/∂σ at the linearisation.
+    frozen_slopes: Vec<f64>,
+    frozen_by_slope: Vec<f64>,
+    motion: Vec<f64>,
+    product: Vec<f64>,
+    spectrum: Vec<Complex64>,
+}
+
+impl SlopeEnergy {
+    /// Room for states of `layout`.
+    #[must_use]
+    pub fn new(layout: Layout, grid: &PeriodicGrid, derivative: &Derivative) -> Self {
+        let (nodes, fields) = (layout.nodes(), layout.fields());
+        Self {
+            layout,
+            grid: grid.clone(),
+            derivative: derivative.clone(),
+            jet: Jet::new(nodes, 2 * fields),
+            fields: vec![0.0; 2 * fields * nodes],
+            frozen_slopes: vec![0.0; fields * nodes],
+            frozen_by_slope: vec![0.0; fields * nodes],
+            motion: vec![0.0; 2 * fields * nodes],
+            product: vec![0.0; nodes],
+            spectrum: vec![Complex64::default(); grid.modes()],
+        }
+    }
+
+    /// Energy of one term at a state.
+    pub fn energy_of(&mut self, term: &mut dyn EnergyTerm, at: &CurveFields) -> f64 {
+        if !term.has_slope_density() {
+            return 0.0;
+        }
+        self.fill(at);
+        self.jet.clear(Order::Gradient);
+        term.add_slope_density(Fields::new(self.layout.nodes(), &self.fields), &mut self.jet);
+        at.length() * mean(self.jet.value())
+    }
+
+    fn fill(&mut self, at: &CurveFields) {
+        let fields = self.layout.fields();
+        for field in 0..fields {
+            self.fields[self.layout.field(field)].copy_from_slice(at.at_flux_points(field));
+            let scale = 1.0 / at.length();
+            for ((slope, phi), symbol) in
+                self.spectrum.iter_mut().zip(at.spectrum(field)).zip(self.derivative.to_flux())
+            {
+                *slope = phi * symbol * scale;
+            }
+            let slopes = self.layout.field(fields + field);
+            self.grid.synthesise(&mut self.spectrum, &mut self.fields[slopes]);
+        }
+    }
+
+    /// Adds to the gradient; returns the energy and its derivative by the length at fixed fields.
+    pub fn add_gradient(
+        &mut self,
+        terms: &mut [Box<dyn EnergyTerm>],
+        at: &CurveFields,
+        order: Order,
+        gradient: &mut IntrinsicGradient,
+    ) -> (f64, f64) {
+        self.fill(at);
+        let (fields, nodes) = (self.layout.fields(), self.layout.nodes());
+        self.jet.clear(order);
+        for term in terms.iter_mut().filter(|term| term.has_slope_density()) {
+            term.add_slope_density(Fields::new(nodes, &self.fields), &mut self.jet);
+        }
+        let density = mean(self.jet.value());
+        let mut by_length = density;
+        for field in 0..fields {
+            let slope = &self.fields[self.layout.field(fields + field)];
+            by_length -= mean_of_product(self.jet.first(fields + field), slope);
+            self.product.copy_from_slice(self.jet.first(field));
+            self.add_interpolated(field, gradient);
+            self.product.copy_from_slice(self.jet.first(fields + field));
+            self.add_divergence(field, 1.0 / at.length(), gradient);
+        }
+        if order >= Order::Hessian {
+            self.frozen_slopes.copy_from_slice(&self.fields[fields * nodes..]);
+            for field in 0..fields {
+                self.frozen_by_slope[self.layout.field(field)]
+                    .copy_from_slice(self.jet.first(fields + field));
+            }
+        }
+        (at.length() * density, by_length)
+    }
+
+    /// Adds the second derivative times a motion, given by the spectra of the pointwise fields' motion and
+    /// the motion of the length; returns what it adds to the derivative by the length.
+    pub fn add_hessian_product(
+        &mut self,
+        at: &CurveFields,
+        motion_spectra: &[Complex64],
+        length_motion: f64,
+        out: &mut IntrinsicGradient,
+    ) -> f64 {
+        let (fields, length, modes) = (self.layout.fields(), at.length(), self.grid.modes());
+        let mut by_length = 0.0;
+        for field in 0..fields {
+            let spectrum = &motion_spectra[field * modes..(field + 1) * modes];
+            match self.derivative.interpolation() {
+                None => self.spectrum.copy_from_slice(spectrum),
+                Some(symbol) => multiply(&mut self.spectrum, spectrum, symbol),
+            }
+            self.grid.synthesise(&mut self.spectrum, &mut self.motion[self.layout.field(field)]);
+            multiply(&mut self.spectrum, spectrum, self.derivative.to_flux());
+            let slopes = self.layout.field(fields + field);
+            self.grid.synthesise(&mut self.spectrum, &mut self.motion[slopes.clone()]);
+            let by_slope = &self.frozen_by_slope[self.layout.field(field)];
+            by_length -= mean_of_product(by_slope, &self.motion[slopes.clone()]) / length;
+            let frozen = &self.frozen_slopes[self.layout.field(field)];
+            for (motion, slope) in self.motion[slopes].iter_mut().zip(frozen) {
+                *motion = (*motion - slope * length_motion) / length;
+            }
+        }
+        for variable in 0..2 * fields {
+            self.product.fill(0.0);
+            for other in 0..2 * fields {
+                let motion = &self.motion[self.layout.field(other)];
+                for ((product, second), motion) in
+                    self.product.iter_mut().zip(self.jet.second(variable, other)).zip(motion)
+                {
+                    *product += second * motion;
+                }
+            }
+            if variable < fields {
+                self.add_interpolated(variable, out);
+                continue;
+            }
+            let field = variable - fields;
+            by_length -= mean_of_product(&self.product, &self.frozen_slopes[self.layout.field(field)]);
+            let by_slope = &self.frozen_by_slope[self.layout.field(field)];
+            for (product, by_slope) in self.product.iter_mut().zip(by_slope) {
+                *product -= by_slope * length_motion / length;
+            }
+            self.add_divergence(field, 1.0 / length, out);
+        }
+        by_length
+    }
+
+    /// p += Mᵀ `product`.
+    fn add_interpolated(&mut self, field: usize, out: &mut IntrinsicGradient) {
+        let modes = self.grid.modes();
+        self.grid.transform(&self.product, &mut self.spectrum);
+        let p = &mut out.spectra[field * modes..(field + 1) * modes];
+        match self.derivative.interpolation() {
+            None => p.iter_mut().zip(&self.spectrum).for_each(|(p, value)| *p += value),
+            Some(symbol) => {
+                for ((p, value), symbol) in p.iter_mut().zip(&self.spectrum).zip(symbol) {
+                    *p += value * symbol.conj();
+                }
+            }
+        }
+    }
+
+    /// p += `scale` D₊ᵀ `product`.
+    fn add_divergence(&mut self, field: usize, scale: f64, out: &mut IntrinsicGradient) {
+        let modes = self.grid.modes();
+        self.grid.transform(&self.product, &mut self.spectrum);
+        let p = &mut out.spectra[field * modes..(field + 1) * modes];
+        for ((p, value), symbol) in p.iter_mut().zip(&self.spectrum).zip(self.derivative.to_flux()) {
+            *p += value * symbol.conj() * scale;
+        }
+    }
+}
+
+fn multiply(out: &mut [Complex64], values: &[Complex64], symbol: &[Complex64]) {
+    for ((out, value), symbol) in out.iter_mut().zip(values).zip(symbol) {
+        *out = value * symbol;
+    }
+}
+
+fn mean_of_product(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() / a.len() as f64
+}

@@ -1,0 +1,111 @@
+//! From curvature and length to tangent angle and position: ∂_sθ = K, ∂_sγ = |Γ| τ(θ).
+//! See `THEORY.md`, eqs. (G3) and (G4).
+
+use std::f64::consts::TAU;
+
+use super::grid::{Complex64, PeriodicGrid};
+
+/// Where a curve lies: what curvature and length leave open.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Placement {
+    /// Mean over the nodes of θ − 2πωs, the tangent angle less its turning.
+    pub angle: f64,
+    /// Mean position of the nodes.
+    pub centre: [f64; 2],
+}
+
+/// Computes tangents and positions; holds all its scratch.
+#[derive(Clone, Debug)]
+pub struct Embedding {
+    grid: PeriodicGrid,
+    spectrum: Vec<Complex64>,
+    theta: Vec<f64>,
+    tangent: [Vec<f64>; 2],
+    position: [Vec<f64>; 2],
+    gap: [f64; 2],
+}
+
+impl Embedding {
+    /// An embedding on a grid.
+    #[must_use]
+    pub fn new(nodes: usize) -> Self {
+        let grid = PeriodicGrid::new(nodes);
+        let field = vec![0.0; nodes];
+        Self {
+            spectrum: vec![Complex64::default(); grid.modes()],
+            grid,
+            theta: field.clone(),
+            tangent: [field.clone(), field.clone()],
+            position: [field.clone(), field],
+            gap: [0.0; 2],
+        }
+    }
+
+    /// Tangents and closure gap of the curve with turning per parameter `turning` and length `length`,
+    /// with mean tangent angle `angle`. Call before the accessors.
+    pub fn set_tangent(&mut self, turning: &[f64], length: f64, angle: f64) {
+        let nodes = self.grid.nodes() as f64;
+        self.grid.transform(turning, &mut self.spectrum);
+        let turning_per_node = self.spectrum[0].re / nodes;
+        self.integrate();
+        self.grid.synthesise(&mut self.spectrum, &mut self.theta);
+        // The mean of 2πωs over the nodes is taken out with the ramp itself.
+        for (i, theta) in self.theta.iter_mut().enumerate() {
+            *theta += angle + turning_per_node * i as f64;
+        }
+        let [cosine, sine] = &mut self.tangent;
+        for ((theta, cosine), sine) in self.theta.iter().zip(cosine.iter_mut()).zip(sine.iter_mut()) {
+            (*sine, *cosine) = theta.sin_cos();
+        }
+        for axis in 0..2 {
+            self.gap[axis] = self.tangent[axis].iter().sum::<f64>() * length / nodes;
+        }
+    }
+
+    /// Positions for the tangents set last, with mean position `centre`; the gap is spread evenly.
+    pub fn set_position(&mut self, length: f64, centre: [f64; 2]) {
+        for axis in 0..2 {
+            self.grid.transform(&self.tangent[axis], &mut self.spectrum);
+            self.integrate();
+            self.grid.synthesise(&mut self.spectrum, &mut self.position[axis]);
+            for x in &mut self.position[axis] {
+                *x = centre[axis] + length * *x;
+            }
+        }
+    }
+
+    /// Divides the spectrum by 2πij: the periodic antiderivative with mean zero.
+    fn integrate(&mut self) {
+        self.spectrum[0] = Complex64::default();
+        for (mode, value) in self.spectrum.iter_mut().enumerate().skip(1) {
+            *value /= Complex64::new(0.0, TAU * mode as f64);
+        }
+        if let Some(sawtooth) = self.grid.sawtooth_mode() {
+            self.spectrum[sawtooth] = Complex64::default();
+        }
+    }
+
+    /// Tangent angle θ at the nodes.
+    #[must_use]
+    pub fn tangent_angle(&self) -> &[f64] {
+        &self.theta
+    }
+
+    /// Unit tangent τ = (cos θ, sin θ) at the nodes, by component.
+    #[must_use]
+    pub fn tangent(&self) -> [&[f64]; 2] {
+        [&self.tangent[0], &self.tangent[1]]
+    }
+
+    /// Position γ at the nodes, by component.
+    #[must_use]
+    pub fn position(&self) -> [&[f64]; 2] {
+        [&self.position[0], &self.position[1]]
+    }
+
+    /// Gap γ(1) − γ(0) = ∫τ dσ.
+    #[must_use]
+    pub fn gap(&self) -> [f64; 2] {
+        self.gap
+    }
+}

@@ -1,0 +1,16 @@
+//! Integrals over a curve.
+
+/// Signed enclosed area ½∮(x dy − y dx) of positions with tangents, positive counter-clockwise.
+/// Trapezoidal rule with dγ = |Γ|τ ds: `THEORY.md`, eq. (G6).
+#[must_use]
+pub fn enclosed_area(position: [&[f64]; 2], tangent: [&[f64]; 2], length: f64) -> f64 {
+    let nodes = position[0].len();
+    let sum: f64 = (0..nodes).map(|i| position[0][i] * tangent[1][i] - position[1][i] * tangent[0][i]).sum();
+    0.5 * length * sum / nodes as f64
+}
+
+/// Root of the mean square of nodal values.
+#[must_use]
+pub fn root_mean_square(values: &[f64]) -> f64 {
+    (values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64).sqrt()
+}

@@ -1,0 +1,16 @@
+//! Closed planar curves as nodal fields: state, grid, shapes, embedding, closure and measures.
+//!
+//! Curves run counter-clockwise; the normal points outwards, so a circle of radius R has curvature +1/R.
+//! The parameter s ∈ [0, 1) has the nodes sᵢ = i/n. See `THEORY.md`, section 1.
+
+mod closure;
+mod embedding;
+mod grid;
+mod measures;
+mod state;
+
+pub use closure::{Closure, ClosureError};
+pub use embedding::{Embedding, Placement};
+pub use grid::{Complex64, PeriodicGrid};
+pub use measures::{enclosed_area, root_mean_square};
+pub use state::{Layout, StateRef};

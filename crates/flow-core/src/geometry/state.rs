@@ -1,0 +1,128 @@
+//! The state of a curve in the scaled arc-length gauge as one flat vector.
+//!
+//! `[K₀ … Kₙ₋₁ | m¹₀ … | m²₀ … | L]` with K = κ|Γ| (turning per unit parameter), mʲ = ρʲ|Γ| (mass per unit
+//! parameter) and L = |Γ|. Turning number and masses are sums of the vector, so that every linear method
+//! keeps them to rounding. See `THEORY.md`, eq. (D2).
+
+/// Shape of the state vector.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Layout {
+    nodes: usize,
+    densities: usize,
+}
+
+impl Layout {
+    /// `nodes` nodes and `densities` densities.
+    #[must_use]
+    pub fn new(nodes: usize, densities: usize) -> Self {
+        Self { nodes, densities }
+    }
+
+    /// Number of nodes.
+    #[must_use]
+    pub fn nodes(&self) -> usize {
+        self.nodes
+    }
+
+    /// Number of densities.
+    #[must_use]
+    pub fn densities(&self) -> usize {
+        self.densities
+    }
+
+    /// Number of nodal fields: the curvature and the densities.
+    #[must_use]
+    pub fn fields(&self) -> usize {
+        1 + self.densities
+    }
+
+    /// Length of the state vector.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.length_index() + 1
+    }
+
+    /// Whether the state is empty: never.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        false
+    }
+
+    /// Index of the length |Γ| in the state vector.
+    #[must_use]
+    pub fn length_index(&self) -> usize {
+        self.fields() * self.nodes
+    }
+
+    /// Entries of field `field` (0: curvature, then the densities).
+    #[must_use]
+    pub fn field(&self, field: usize) -> std::ops::Range<usize> {
+        field * self.nodes..(field + 1) * self.nodes
+    }
+
+    /// State vector of pointwise `curvature` and `density` on a curve of the given length.
+    #[must_use]
+    pub fn assemble(&self, curvature: &[f64], density: &[Vec<f64>], length: f64) -> Vec<f64> {
+        let mut y = Vec::with_capacity(self.len());
+        y.extend(curvature.iter().map(|kappa| kappa * length));
+        for rho in density {
+            y.extend(rho.iter().map(|rho| rho * length));
+        }
+        y.push(length);
+        assert_eq!(y.len(), self.len(), "one value per node and field");
+        y
+    }
+}
+
+/// A state vector with its layout.
+#[derive(Clone, Copy, Debug)]
+pub struct StateRef<'a> {
+    layout: Layout,
+    values: &'a [f64],
+}
+
+impl<'a> StateRef<'a> {
+    /// Wraps a state vector.
+    #[must_use]
+    pub fn new(layout: Layout, values: &'a [f64]) -> Self {
+        assert_eq!(values.len(), layout.len(), "length of the state vector");
+        Self { layout, values }
+    }
+
+    /// Shape of the vector.
+    #[must_use]
+    pub fn layout(&self) -> Layout {
+        self.layout
+    }
+
+    /// Length |Γ| of the curve; also its uniform metric g.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.values[self.layout.length_index()]
+    }
+
+    /// K = κ|Γ| at the nodes.
+    #[must_use]
+    pub fn turning_per_parameter(&self) -> &'a [f64] {
+        self.field_per_parameter(0)
+    }
+
+    /// Field `field` per unit parameter: K, m¹, m², …
+    #[must_use]
+    pub fn field_per_parameter(&self, field: usize) -> &'a [f64] {
+        &self.values[self.layout.field(field)]
+    }
+
+    /// Pointwise field `field`: κ, ρ¹, ρ², …
+    #[must_use]
+    pub fn pointwise(&self, field: usize) -> Vec<f64> {
+        let length = self.length();
+        self.field_per_parameter(field).iter().map(|value| value / length).collect()
+    }
+
+    /// Mass ∫ρ dσ of density `density`.
+    #[must_use]
+    pub fn mass(&self, density: usize) -> f64 {
+        self.field_per_parameter(1 + density).iter().sum::<f64>() / self.layout.nodes as f64
+    }
+}

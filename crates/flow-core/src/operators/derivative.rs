@@ -1,0 +1,161 @@
+//! Discrete derivatives on the periodic grid, each given by its Fourier symbol.
+//!
+//! A family has a derivative from the nodes to the flux points, D₊, its negative transpose D₋ from the flux
+//! points back to the nodes, an interpolation M to the flux points and the second derivative D₋D₊. Transposes
+//! are conjugate symbols, so D₊ᵀ = −D₋ holds to rounding by construction. See `THEORY.md`, section 2.
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::{Complex64, PeriodicGrid};
+
+/// Family of discrete derivatives.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DerivativeFamily {
+    /// Exact on trigonometric polynomials; flux points are the nodes.
+    #[default]
+    Fourier,
+    /// Staggered central differences of order 2; flux points are the midpoints, as in all of order 2 to 8.
+    #[serde(rename = "central-2")]
+    Central2,
+    /// Staggered central differences of order 4.
+    #[serde(rename = "central-4")]
+    Central4,
+    /// Staggered central differences of order 6.
+    #[serde(rename = "central-6")]
+    Central6,
+    /// Staggered central differences of order 8.
+    #[serde(rename = "central-8")]
+    Central8,
+}
+
+/// Weights of the differences f(i+½+j) − f(i−½−j), and of the means of the same pairs.
+struct Stencil {
+    difference: &'static [f64],
+    mean: &'static [f64],
+}
+
+const CENTRAL_2: Stencil = Stencil { difference: &[1.0], mean: &[1.0] };
+const CENTRAL_4: Stencil =
+    Stencil { difference: &[9.0 / 8.0, -1.0 / 24.0], mean: &[9.0 / 8.0, -1.0 / 8.0] };
+const CENTRAL_6: Stencil = Stencil {
+    difference: &[75.0 / 64.0, -25.0 / 384.0, 3.0 / 640.0],
+    mean: &[150.0 / 128.0, -25.0 / 128.0, 3.0 / 128.0],
+};
+const CENTRAL_8: Stencil = Stencil {
+    difference: &[1225.0 / 1024.0, -245.0 / 3072.0, 49.0 / 5120.0, -5.0 / 7168.0],
+    mean: &[1225.0 / 1024.0, -245.0 / 1024.0, 49.0 / 1024.0, -5.0 / 1024.0],
+};
+
+impl DerivativeFamily {
+    /// Every family.
+    pub const ALL: [Self; 5] =
+        [Self::Fourier, Self::Central2, Self::Central4, Self::Central6, Self::Central8];
+
+    /// Order of the error in the node distance; none for the Fourier derivative.
+    #[must_use]
+    pub fn order(self) -> Option<i32> {
+        match self {
+            Self::Fourier => None,
+            Self::Central2 => Some(2),
+            Self::Central4 => Some(4),
+            Self::Central6 => Some(6),
+            Self::Central8 => Some(8),
+        }
+    }
+
+    fn stencil(self) -> Option<&'static Stencil> {
+        match self {
+            Self::Fourier => None,
+            Self::Central2 => Some(&CENTRAL_2),
+            Self::Central4 => Some(&CENTRAL_4),
+            Self::Central6 => Some(&CENTRAL_6),
+            Self::Central8 => Some(&CENTRAL_8),
+        }
+    }
+}
+
+/// The symbols of one family on one grid, per unit parameter.
+#[derive(Clone, Debug)]
+pub struct Derivative {
+    family: DerivativeFamily,
+    to_flux: Vec<Complex64>,
+    inverse_to_flux: Vec<Complex64>,
+    interpolation: Option<Vec<Complex64>>,
+    minus_laplacian: Vec<f64>,
+}
+
+impl Derivative {
+    /// Builds the symbols of `family` for `grid`.
+    #[must_use]
+    pub fn new(family: DerivativeFamily, grid: &PeriodicGrid) -> Self {
+        let to_flux: Vec<_> = (0..grid.modes()).map(|mode| Self::flux_symbol(family, grid, mode)).collect();
+        let inverse_to_flux =
+            to_flux.iter().map(|d| if d.norm_sqr() == 0.0 { Complex64::default() } else { 1.0 / d }).collect();
+        let interpolation = family.stencil().map(|stencil| {
+            (0..grid.modes()).map(|mode| Self::mean_symbol(stencil, grid, mode)).collect::<Vec<_>>()
+        });
+        // The nodal Fourier derivative loses the sawtooth; the second derivative must not.
+        let minus_laplacian = (0..grid.modes())
+            .map(|mode| match family {
+                DerivativeFamily::Fourier => grid.wave_number(mode).powi(2),
+                _ => to_flux[mode].norm_sqr(),
+            })
+            .collect();
+        Self { family, to_flux, inverse_to_flux, interpolation, minus_laplacian }
+    }
+
+    fn flux_symbol(family: DerivativeFamily, grid: &PeriodicGrid, mode: usize) -> Complex64 {
+        match family.stencil() {
+            None if Some(mode) == grid.sawtooth_mode() => Complex64::default(),
+            None => Complex64::new(0.0, grid.wave_number(mode)),
+            Some(stencil) => {
+                let half = 0.5 * grid.wave_number(mode) / grid.nodes() as f64;
+                let sum: f64 = stencil
+                    .difference
+                    .iter()
+                    .enumerate()
+                    .map(|(j, c)| 2.0 * c * (half * (2 * j + 1) as f64).sin())
+                    .sum();
+                Complex64::new(0.0, sum * grid.nodes() as f64) * Complex64::cis(half)
+            }
+        }
+    }
+
+    fn mean_symbol(stencil: &Stencil, grid: &PeriodicGrid, mode: usize) -> Complex64 {
+        let half = 0.5 * grid.wave_number(mode) / grid.nodes() as f64;
+        let sum: f64 =
+            stencil.mean.iter().enumerate().map(|(j, c)| c * (half * (2 * j + 1) as f64).cos()).sum();
+        Complex64::cis(half) * sum
+    }
+
+    /// The family.
+    #[must_use]
+    pub fn family(&self) -> DerivativeFamily {
+        self.family
+    }
+
+    /// Symbol of D₊, from the nodes to the flux points.
+    #[must_use]
+    pub fn to_flux(&self) -> &[Complex64] {
+        &self.to_flux
+    }
+
+    /// Symbol of the inverse of D₊ on fields that it does not lose, zero elsewhere.
+    #[must_use]
+    pub fn inverse_to_flux(&self) -> &[Complex64] {
+        &self.inverse_to_flux
+    }
+
+    /// Symbol of the interpolation M to the flux points; none where these are the nodes.
+    #[must_use]
+    pub fn interpolation(&self) -> Option<&[Complex64]> {
+        self.interpolation.as_deref()
+    }
+
+    /// Symbol of −D₋D₊ ≥ 0, which vanishes on constants only.
+    #[must_use]
+    pub fn minus_laplacian(&self) -> &[f64] {
+        &self.minus_laplacian
+    }
+}
