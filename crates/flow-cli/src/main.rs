@@ -1,3 +1,89 @@
 //! The `curveflow` command.
 
-fn main() {}
+mod commands;
+mod error;
+mod print;
+
+use std::error::Error;
+use std::fmt::Write;
+use std::panic;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use commands::{info, plot};
+use error::CliError;
+
+/// Gradient flows of energies of closed planar curves that carry embedded densities.
+#[derive(Debug, Parser)]
+#[command(name = "curveflow", version, about, arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Info(info::Args),
+    Plot(plot::Args),
+}
+
+impl Command {
+    fn execute(&self) -> Result<(), CliError> {
+        match self {
+            Self::Info(args) => info::execute(args),
+            Self::Plot(args) => plot::execute(args),
+        }
+    }
+}
+
+fn main() -> ExitCode {
+    // A wrong command line ends here: clap prints its message and exits with 2.
+    let cli = Cli::parse();
+    match panic::catch_unwind(|| cli.command.execute()) {
+        Ok(Ok(())) => ExitCode::SUCCESS,
+        Ok(Err(error)) => {
+            print::talk(&message(&error));
+            ExitCode::from(exit_code(&error))
+        }
+        Err(_) => {
+            print::talk("this is a bug in curveflow: please report the lines above and the scene");
+            ExitCode::from(70)
+        }
+    }
+}
+
+/// The one map from errors to exit codes; 0 is success, 2 is clap's, 70 a panic.
+fn exit_code(error: &CliError) -> u8 {
+    match error {
+        CliError::Usage { .. } => 2,
+        CliError::InvalidScene { .. } => 3,
+        CliError::Numerical { .. } => 4,
+        CliError::Storage(_) | CliError::Stdout(_) => 5,
+        CliError::Stopped { .. } => 6,
+        CliError::Unreadable(_) => 7,
+    }
+}
+
+/// The error and everything that caused it, one line each.
+fn message(error: &CliError) -> String {
+    let mut text = format!("error: {error}");
+    let mut cause = error.source();
+    while let Some(inner) = cause {
+        let _ = write!(text, "\n  caused by: {inner}"); // a String never fails
+        cause = inner.source();
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+}

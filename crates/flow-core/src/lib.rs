@@ -6,4 +6,5 @@ pub mod flow;
 pub mod geometry;
 pub mod integrator;
 pub mod operators;
+pub mod output;
 pub mod run;

@@ -1,0 +1,93 @@
+//! `curveflow info OUT`: what a result file holds.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use flow_core::output::hdf5_file;
+use flow_core::run::{Record, Rejections, StopReason};
+use serde_json::{Map, Value, json};
+
+use crate::error::CliError;
+use crate::print;
+
+/// Show how a run ended, what it conserved and what it cost.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Result file of `curveflow run`.
+    pub out: PathBuf,
+    /// Print JSON instead of a table.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Prints the summary.
+pub fn execute(args: &Args) -> Result<(), CliError> {
+    let record = hdf5_file::read(&args.out)?;
+    let rows = summary(&record);
+    print::data(&if args.json { as_json(rows) } else { as_table(&rows) })
+}
+
+/// Key and value of every line, in order.
+fn summary(record: &Record) -> Vec<(String, Value)> {
+    let mut rows: Vec<(String, Value)> = Vec::new();
+    let mut row = |key: &str, value: Value| rows.push((key.to_owned(), value));
+    row("title", json!(record.title));
+    row("stop_reason", json!(record.stop_reason.name()));
+    if let StopReason::Failed(message) = &record.stop_reason {
+        row("message", json!(message));
+    }
+    row("frames", json!(record.frames.len()));
+    row("nodes", json!(record.nodes()));
+    if let (Some(first), Some(last)) = (record.frames.first(), record.frames.last()) {
+        row("time", number(last.time));
+        row("energy_first", number(first.energy));
+        row("energy_last", number(last.energy));
+        row("dissipation_last", number(last.dissipation));
+        row("length_first", number(first.length));
+        row("length_last", number(last.length));
+        for (i, name) in record.densities.iter().enumerate() {
+            row(&format!("mass_{name}"), number(last.mass[i]));
+            row(&format!("mass_drift_{name}"), number(relative_change(first.mass[i], last.mass[i])));
+        }
+    }
+    let counters = &record.counters;
+    row("steps", json!(counters.steps));
+    row("right_hand_sides", json!(counters.right_hand_sides));
+    row("jacobian_products", json!(counters.jacobian_products));
+    row("newton_iterations", json!(counters.newton_iterations));
+    row("krylov_iterations", json!(counters.krylov_iterations));
+    row("factorisations", json!(counters.factorisations));
+    row("solves", json!(counters.solves));
+    let Rejections { error, solver, energy_rise, not_finite } = counters.rejections;
+    row("rejections_error", json!(error));
+    row("rejections_solver", json!(solver));
+    row("rejections_energy_rise", json!(energy_rise));
+    row("rejections_not_finite", json!(not_finite));
+    row("integration_seconds", number(counters.integration_seconds));
+    rows
+}
+
+/// A number, or the name of what is none: JSON has neither NaN nor infinity.
+fn number(value: f64) -> Value {
+    if value.is_finite() { json!(value) } else { json!(value.to_string()) }
+}
+
+/// Change from `first` to `last`, relative to `first` unless that is zero.
+fn relative_change(first: f64, last: f64) -> f64 {
+    if first == 0.0 { last } else { (last - first) / first.abs() }
+}
+
+fn as_json(rows: Vec<(String, Value)>) -> String {
+    format!("{:#}", Value::Object(rows.into_iter().collect::<Map<_, _>>()))
+}
+
+fn as_table(rows: &[(String, Value)]) -> String {
+    let width = rows.iter().map(|(key, _)| key.chars().count()).max().unwrap_or(0);
+    let mut table = String::new();
+    for (key, value) in rows {
+        let text = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+        let _ = writeln!(table, "{key:width$}  {text}"); // a String never fails
+    }
+    table.truncate(table.trim_end().len());
+    table
+}

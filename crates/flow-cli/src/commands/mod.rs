@@ -1,0 +1,4 @@
+//! One file per command: parse, call, print.
+
+pub mod info;
+pub mod plot;

@@ -1,0 +1,32 @@
+//! `curveflow plot OUT`: draw a finished run.
+
+use std::path::PathBuf;
+
+use flow_core::output::atomic_file::check_writable;
+use flow_core::output::{hdf5_file, picture};
+
+use crate::error::CliError;
+use crate::print;
+
+/// Draw a result: the final curve, its state, energy and length over time.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Result file of `curveflow run`.
+    pub out: PathBuf,
+    /// Figure to write, `.png` or `.svg` [default: the result file's name with .png].
+    #[arg(short, long, value_name = "PNG|SVG")]
+    pub output: Option<PathBuf>,
+    /// Replace an existing figure.
+    #[arg(long)]
+    pub replace: bool,
+}
+
+/// Draws the figure and prints its name.
+pub fn execute(args: &Args) -> Result<(), CliError> {
+    let path = args.output.clone().unwrap_or_else(|| args.out.with_extension("png"));
+    check_writable(&path, args.replace)?;
+    let record = hdf5_file::read(&args.out)?;
+    let options = picture::Options { replace: args.replace, ..picture::Options::default() };
+    picture::plot(&record, &path, &options)?;
+    print::data(&path.display().to_string())
+}

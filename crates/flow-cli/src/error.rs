@@ -1,0 +1,50 @@
+//! What can go wrong in a command; `main.rs` maps each kind to its exit code.
+
+use std::error::Error;
+use std::io;
+use std::path::PathBuf;
+
+use flow_core::output::StorageError;
+use flow_core::output::picture::PictureError;
+
+/// Why a command failed.
+#[derive(Debug, thiserror::Error)]
+#[allow(dead_code)] // the commands that run scenes use the rest
+pub enum CliError {
+    /// The arguments do not make sense together.
+    #[error("{message}; see `curveflow help`")]
+    Usage { message: String },
+    /// The scene is not valid.
+    #[error("{}: {source}", .scene.display())]
+    InvalidScene { scene: PathBuf, source: Box<dyn Error + Send + Sync> },
+    /// The integration failed; the last good state is in the output.
+    #[error("{message}; the last good state is in {}", .output.display())]
+    Numerical { message: String, output: PathBuf },
+    /// A file could not be written, or not be read at all.
+    #[error(transparent)]
+    Storage(StorageError),
+    /// Standard output is closed or full.
+    #[error("cannot write to standard output: {0}; redirect it to a disk with space")]
+    Stdout(io::Error),
+    /// A signal or a limit stopped the run.
+    #[error("stopped at t = {time:.6e}; continue with `curveflow resume {}`", .output.display())]
+    Stopped { time: f64, output: PathBuf },
+    /// The file to be read is not ours, or damaged.
+    #[error(transparent)]
+    Unreadable(StorageError),
+}
+
+impl From<StorageError> for CliError {
+    fn from(error: StorageError) -> Self {
+        if error.is_unreadable_file() { Self::Unreadable(error) } else { Self::Storage(error) }
+    }
+}
+
+impl From<PictureError> for CliError {
+    fn from(error: PictureError) -> Self {
+        match error {
+            PictureError::Storage(error) => error.into(),
+            other => Self::Usage { message: other.to_string() },
+        }
+    }
+}

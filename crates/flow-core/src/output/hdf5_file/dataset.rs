@@ -1,0 +1,96 @@
+//! One dataset: chunked, with Fletcher32, dimension scales, a long name and units.
+
+use hdf5_image::{attach_scale, set_scale};
+use hdf5_metno::types::VarLenUnicode;
+use hdf5_metno::{Dataset, Extent, Group, H5Type, Location, SimpleExtents};
+
+use crate::output::StorageError;
+
+/// Chunks hold about this many values: one read of 512 kB, yet a single frame is cheap.
+const CHUNK_VALUES: usize = 1 << 16;
+
+/// A named dimension.
+pub(super) struct Axis {
+    scale: Dataset,
+    length: usize,
+}
+
+/// Name and units of a dataset.
+pub(super) struct Meaning<'a> {
+    pub long_name: &'a str,
+    pub units: &'a str,
+}
+
+/// Turns an error of the library into ours, naming what was being built.
+pub(super) fn building<E: std::error::Error + Send + Sync + 'static>(
+    item: &str,
+) -> impl FnOnce(E) -> StorageError + '_ {
+    move |source| StorageError::Build { item: item.to_owned(), source: Box::new(source) }
+}
+
+/// Makes a dimension that is no variable, as netCDF-4 does: only its name and length matter.
+pub(super) fn axis(group: &Group, name: &str, length: usize) -> Result<Axis, StorageError> {
+    let scale = empty::<u8>(group, name, &[length]).map_err(building(name))?;
+    let label = format!("This is a netCDF dimension but not a netCDF variable.{length:10}");
+    set_scale(&scale, &label).map_err(building(name))?;
+    Ok(Axis { scale, length })
+}
+
+/// Makes a dimension with one label per entry.
+pub(super) fn labelled_axis(group: &Group, name: &str, labels: &[&str]) -> Result<Axis, StorageError> {
+    let scale = empty::<VarLenUnicode>(group, name, &[labels.len()]).map_err(building(name))?;
+    let labels: Vec<_> = labels.iter().map(|label| text(label)).collect();
+    scale.write_raw(&labels).map_err(building(name))?;
+    set_scale(&scale, name).map_err(building(name))?;
+    Ok(Axis { scale, length: labels.len() })
+}
+
+/// Writes `data`, row by row, as the dataset `name` over `axes`.
+pub(super) fn dataset<T: H5Type>(
+    group: &Group,
+    name: &str,
+    axes: &[&Axis],
+    meaning: &Meaning<'_>,
+    data: &[T],
+) -> Result<(), StorageError> {
+    let shape: Vec<usize> = axes.iter().map(|axis| axis.length).collect();
+    let dataset = empty::<T>(group, name, &shape).map_err(building(name))?;
+    if !data.is_empty() {
+        dataset.write_raw(data).map_err(building(name))?;
+    }
+    for (number, axis) in (0..).zip(axes) {
+        attach_scale(&dataset, &axis.scale, number).map_err(building(name))?;
+    }
+    write_text(&dataset, "long_name", meaning.long_name)?;
+    write_text(&dataset, "units", meaning.units)
+}
+
+/// Writes a text attribute, UTF-8 of variable length, which h5py gives as `str`.
+pub(super) fn write_text(owner: &Location, name: &str, value: &str) -> Result<(), StorageError> {
+    let attribute = owner.new_attr::<VarLenUnicode>().create(name);
+    attribute.and_then(|attribute| attribute.write_scalar(&text(value))).map_err(building(name))
+}
+
+/// A text as the library stores it; it cannot hold NUL bytes, which become replacement characters.
+pub(super) fn text(value: &str) -> VarLenUnicode {
+    value.replace('\0', "\u{FFFD}").parse().unwrap_or_default()
+}
+
+fn empty<T: H5Type>(group: &Group, name: &str, shape: &[usize]) -> hdf5_metno::Result<Dataset> {
+    // The library has no chunks of size 0: an empty dimension is one that could grow.
+    let extents = shape.iter().map(|&n| if n == 0 { Extent::resizable(0) } else { Extent::fixed(n) });
+    let row: usize = shape.iter().skip(1).product();
+    let mut chunk: Vec<usize> = shape.iter().map(|&n| n.max(1)).collect();
+    if let Some(first) = chunk.first_mut() {
+        // Chunks of equal size: the last one would be padded to the size of the others.
+        let count = first.div_ceil((CHUNK_VALUES / row.max(1)).max(1));
+        *first = first.div_ceil(count);
+    }
+    group
+        .new_dataset::<T>()
+        .shape(SimpleExtents::from_vec(extents.collect()))
+        .chunk(chunk)
+        .fletcher32()
+        .obj_track_times(false)
+        .create(name)
+}

@@ -1,0 +1,11 @@
+//! Result files in HDF5: written whole, read back whole, opened by h5py, xarray (h5netcdf) and netCDF-4.
+
+mod dataset;
+mod layout;
+mod provenance;
+mod reader;
+mod writer;
+
+pub use layout::CONVENTIONS;
+pub use reader::read;
+pub use writer::{to_bytes, write};

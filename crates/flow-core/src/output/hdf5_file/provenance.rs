@@ -1,0 +1,91 @@
+//! The attributes of a result file: which scene, which program, which machine, how much work, why it stopped.
+
+use hdf5_metno::types::VarLenUnicode;
+use hdf5_metno::{File, H5Type};
+
+use super::dataset::{building, text, write_text};
+use super::layout::{CAUSES, CONVENTIONS, COUNTERS};
+use crate::output::StorageError;
+use crate::run::{Record, StopReason};
+
+const CITATION: &str = concat!(
+    "Curveflow ",
+    env!("CARGO_PKG_VERSION"),
+    ". Model: K. Promislow, T. Vu and B. Wetton, ",
+    "Gradient Flows of Interfacial Energies: Curvature Agents and Incompressibility."
+);
+
+/// Writes all attributes of the file itself.
+pub(super) fn write(file: &File, record: &Record) -> Result<(), StorageError> {
+    write_text(file, "Conventions", CONVENTIONS)?;
+    for (name, value) in texts(record) {
+        write_text(file, name, value)?;
+    }
+    write_number(file, "text_checksum", &checksum(record))?;
+    write_names(file, "energy_terms", &record.energy_terms)?;
+    write_names(file, "densities", &record.densities)?;
+    // Tells xarray which variables are coordinates.
+    write_text(file, "coordinates", "time parameter")?;
+    write_text(file, "curveflow_version", env!("CARGO_PKG_VERSION"))?;
+    if let Some(commit) = option_env!("CURVEFLOW_COMMIT") {
+        write_text(file, "commit", commit)?;
+    }
+    write_text(file, "machine", &machine())?;
+    write_text(file, "citation", CITATION)?;
+    for counter in COUNTERS {
+        write_number(file, counter.name, (counter.get)(&record.counters))?;
+    }
+    for cause in CAUSES {
+        write_number(file, &rejections_name(cause.name), (cause.get)(&record.counters.rejections))?;
+    }
+    write_number(file, "integration_seconds", &record.counters.integration_seconds)
+}
+
+/// Name of the attribute that counts the rejections by one cause.
+pub(super) fn rejections_name(cause: &str) -> String {
+    format!("rejections_{cause}")
+}
+
+/// FNV-1a of every text of the record. HDF5 keeps texts in a heap that has no checksum of its own.
+pub(super) fn checksum(record: &Record) -> u64 {
+    let texts = texts(record).map(|(_, value)| value);
+    let names = record.energy_terms.iter().chain(&record.densities).map(String::as_str);
+    let bytes = texts.into_iter().chain(names).flat_map(|text| text.bytes().chain([0]));
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+}
+
+fn texts(record: &Record) -> [(&'static str, &str); 5] {
+    let message = match &record.stop_reason {
+        StopReason::Failed(message) => message.as_str(),
+        StopReason::EndTime => "the end time was reached",
+        StopReason::Equilibrium => "the dissipation fell below the bound for equilibrium",
+        StopReason::Interrupted => "an observer asked the run to stop",
+    };
+    [
+        ("title", &record.title),
+        ("scene", &record.scene),
+        ("resolved_scene", &record.resolved_scene),
+        ("stop_reason", record.stop_reason.name()),
+        ("message", message),
+    ]
+}
+
+fn machine() -> String {
+    let processors = std::thread::available_parallelism().map_or(0, usize::from);
+    format!("{} {}, {processors} processors", std::env::consts::OS, std::env::consts::ARCH)
+}
+
+fn write_number<T: H5Type>(file: &File, name: &str, value: &T) -> Result<(), StorageError> {
+    let attribute = file.new_attr::<T>().create(name);
+    attribute.and_then(|attribute| attribute.write_scalar(value)).map_err(building(name))
+}
+
+/// Writes a list of names in order; an empty list is left out, since groups are sorted by name.
+fn write_names(file: &File, name: &str, names: &[String]) -> Result<(), StorageError> {
+    if names.is_empty() {
+        return Ok(());
+    }
+    let names: Vec<_> = names.iter().map(|name| text(name)).collect();
+    let attribute = file.new_attr::<VarLenUnicode>().shape(names.len()).create(name);
+    attribute.and_then(|attribute| attribute.write_raw(&names)).map_err(building(name))
+}

@@ -1,0 +1,189 @@
+//! Reads a result file back into a [`Record`], recognising files that are foreign, truncated or damaged.
+
+use std::fs;
+use std::io::Read;
+use std::path::Path;
+
+use hdf5_metno::types::VarLenUnicode;
+use hdf5_metno::{Error, File, Group, H5Type, Result as Hdf5Result};
+
+use super::layout::{CAUSES, CONVENTIONS, COUNTERS, FRAME_VALUES, NAMED_VALUES, NODAL_FIELDS, STEP_VALUES};
+use super::provenance::{checksum, rejections_name};
+use crate::output::{Operation, StorageError};
+use crate::run::{Counters, Frame, Record, Rejections, StepLog, StopReason};
+
+/// The first bytes of every HDF5 file.
+const SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
+
+/// Reads the result file `path`.
+/// # Errors
+/// [`StorageError::System`] if the file cannot be read at all, otherwise [`StorageError::NotHdf5`],
+/// [`StorageError::Foreign`] or [`StorageError::Damaged`].
+pub fn read(path: &Path) -> Result<Record, StorageError> {
+    check_signature(path)?;
+    let damaged = |item: &str, source: Error| StorageError::Damaged {
+        path: path.to_path_buf(),
+        item: item.to_owned(),
+        source: Box::new(source),
+    };
+    // The library reads the whole file at once and takes no lock on it.
+    let mut options = File::with_options();
+    let file = options.with_fapl(|plist| plist.core_filebacked(false)).open(path);
+    let file = file.map_err(|source| damaged("its first block", source))?;
+    let conventions = text(&file, "Conventions").ok();
+    if conventions.as_deref() != Some(CONVENTIONS) {
+        let path = path.to_path_buf();
+        return Err(StorageError::Foreign { path, found: conventions, expected: CONVENTIONS });
+    }
+    Content { file }.record().map_err(|(item, source)| damaged(&item, source))
+}
+
+fn check_signature(path: &Path) -> Result<(), StorageError> {
+    let failed = |reason| StorageError::system(path, Operation::Read, reason);
+    if fs::metadata(path).map_err(failed)?.is_dir() {
+        return Err(StorageError::NotAFile { path: path.to_path_buf() });
+    }
+    let mut start = Vec::new();
+    let file = fs::File::open(path).map_err(failed)?;
+    file.take(SIGNATURE.len() as u64).read_to_end(&mut start).map_err(failed)?;
+    if start == SIGNATURE { Ok(()) } else { Err(StorageError::NotHdf5 { path: path.to_path_buf() }) }
+}
+
+/// What could not be read, and why.
+type Failure = (String, Error);
+
+/// An open result file.
+struct Content {
+    file: File,
+}
+
+impl Content {
+    fn record(&self) -> Result<Record, Failure> {
+        let mut record = Record {
+            title: self.text("title")?,
+            scene: self.text("scene")?,
+            resolved_scene: self.text("resolved_scene")?,
+            energy_terms: self.names("energy_terms")?,
+            densities: self.names("densities")?,
+            frames: Vec::new(),
+            steps: self.steps()?,
+            counters: self.counters()?,
+            stop_reason: self.stop_reason()?,
+        };
+        if self.number::<u64>("text_checksum")? != checksum(&record) {
+            return Err(("the texts in its attributes".to_owned(), "the checksum differs".into()));
+        }
+        record.frames = self.frames(&record)?;
+        Ok(record)
+    }
+
+    fn frames(&self, record: &Record) -> Result<Vec<Frame>, Failure> {
+        let count = self.values::<f64>("time", None)?.len();
+        let nodes = self.values::<f64>("parameter", None)?.len();
+        let mut frames = vec![Frame::default(); count];
+        for entry in FRAME_VALUES {
+            let values = self.values(entry.name, Some(count))?;
+            frames.iter_mut().zip(values).for_each(|(frame, value)| *(entry.slot)(frame) = value);
+        }
+        for list in NAMED_VALUES {
+            for name in (list.names)(record) {
+                let values = self.values(&format!("{}/{name}", list.group), Some(count))?;
+                frames.iter_mut().zip(values).for_each(|(frame, value)| (list.slot)(frame).push(value));
+            }
+        }
+        for entry in NODAL_FIELDS {
+            let values = self.values(entry.name, Some(count * nodes))?;
+            rows(&mut frames, &values, nodes, |frame, row| *(entry.slot)(frame) = row.to_vec());
+        }
+        let position = self.values("position", Some(count * nodes * 2))?;
+        rows(&mut frames, &position, nodes * 2, |frame, row| frame.position = row.as_chunks().0.to_vec());
+        for name in &record.densities {
+            let values = self.values(&format!("density/{name}"), Some(count * nodes))?;
+            rows(&mut frames, &values, nodes, |frame, row| frame.density.push(row.to_vec()));
+        }
+        Ok(frames)
+    }
+
+    fn steps(&self) -> Result<StepLog, Failure> {
+        let count = self.values::<f64>("steps/time", None)?.len();
+        let mut steps = StepLog { rejections: vec![Rejections::default(); count], ..StepLog::default() };
+        for entry in STEP_VALUES {
+            *(entry.slot)(&mut steps) = self.values(&format!("steps/{}", entry.name), Some(count))?;
+        }
+        steps.order = self.values("steps/order", Some(count))?;
+        for cause in CAUSES {
+            let counts = self.values(&format!("steps/rejections/{}", cause.name), Some(count))?;
+            let all = steps.rejections.iter_mut().zip(counts);
+            all.for_each(|(rejections, count)| *(cause.slot)(rejections) = count);
+        }
+        Ok(steps)
+    }
+
+    fn counters(&self) -> Result<Counters, Failure> {
+        let integration_seconds = self.number("integration_seconds")?;
+        let mut counters = Counters { integration_seconds, ..Counters::default() };
+        for counter in COUNTERS {
+            *(counter.slot)(&mut counters) = self.number(counter.name)?;
+        }
+        for cause in CAUSES {
+            *(cause.slot)(&mut counters.rejections) = self.number(&rejections_name(cause.name))?;
+        }
+        Ok(counters)
+    }
+
+    fn stop_reason(&self) -> Result<StopReason, Failure> {
+        let name = self.text("stop_reason")?;
+        let failed = StopReason::Failed(self.text("message")?);
+        [StopReason::EndTime, StopReason::Equilibrium, StopReason::Interrupted, failed]
+            .into_iter()
+            .find(|reason| reason.name() == name)
+            .ok_or_else(|| ("stop_reason".to_owned(), format!("it is \"{name}\"").into()))
+    }
+
+    /// All values of a dataset, `expected` of them unless that is not known yet.
+    fn values<T: H5Type>(&self, name: &str, expected: Option<usize>) -> Result<Vec<T>, Failure> {
+        let values = self.file.dataset(name).and_then(|dataset| {
+            // The library refuses to read nothing from a dataset without chunks.
+            if dataset.size() == 0 { Ok(Vec::new()) } else { dataset.read_raw() }
+        });
+        let values: Vec<T> = values.map_err(|source| (format!("/{name}"), source))?;
+        match expected {
+            Some(expected) if values.len() != expected => {
+                let reason = format!("it holds {} values, expected {expected}", values.len());
+                Err((format!("/{name}"), reason.into()))
+            }
+            _ => Ok(values),
+        }
+    }
+
+    fn text(&self, name: &str) -> Result<String, Failure> {
+        text(&self.file, name).map_err(|source| (name.to_owned(), source))
+    }
+
+    fn number<T: H5Type>(&self, name: &str) -> Result<T, Failure> {
+        let number = self.file.attr(name).and_then(|attribute| attribute.read_scalar());
+        number.map_err(|source| (name.to_owned(), source))
+    }
+
+    /// A list of names; an empty one is not in the file.
+    fn names(&self, name: &str) -> Result<Vec<String>, Failure> {
+        let read = || -> Hdf5Result<Vec<String>> {
+            if !self.file.attr_names()?.iter().any(|found| found == name) {
+                return Ok(Vec::new());
+            }
+            let names: Vec<VarLenUnicode> = self.file.attr(name)?.read_raw()?;
+            Ok(names.iter().map(|name| name.as_str().to_owned()).collect())
+        };
+        read().map_err(|source| (name.to_owned(), source))
+    }
+}
+
+fn text(group: &Group, name: &str) -> Hdf5Result<String> {
+    Ok(group.attr(name)?.read_scalar::<VarLenUnicode>()?.as_str().to_owned())
+}
+
+fn rows(frames: &mut [Frame], values: &[f64], length: usize, set: impl Fn(&mut Frame, &[f64])) {
+    if length > 0 {
+        frames.iter_mut().zip(values.chunks_exact(length)).for_each(|(frame, row)| set(frame, row));
+    }
+}

@@ -1,0 +1,143 @@
+//! Builds a result file in memory and hands its bytes to [`atomic_file`]: the HDF5 library never touches the disk.
+
+use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use hdf5_metno::{File, file::LibraryVersion};
+
+use super::dataset::{Axis, Meaning, axis, building, dataset, labelled_axis, write_text};
+use super::layout::{CAUSES, FRAME_VALUES, NAMED_VALUES, NODAL_FIELDS, STEP_VALUES};
+use super::provenance;
+use crate::output::{StorageError, atomic_file};
+use crate::run::{Frame, Record};
+
+/// Writes `record` to `path`; an existing file is replaced only if `replace`.
+/// # Errors
+/// [`StorageError`]; the target is then as it was, and no other file is left.
+pub fn write(record: &Record, path: &Path, replace: bool) -> Result<(), StorageError> {
+    atomic_file::write(path, &to_bytes(record)?, replace)
+}
+
+/// Returns the bytes of the result file of `record`.
+/// # Errors
+/// [`StorageError::Ragged`] if its frames differ in size, [`StorageError::Build`] if memory runs out.
+pub fn to_bytes(record: &Record) -> Result<Vec<u8>, StorageError> {
+    check_rectangular(record)?;
+    let file = in_memory()?;
+    let frame = axis(&file, "frame", record.frames.len())?;
+    let node = axis(&file, "node", record.nodes())?;
+    let component = labelled_axis(&file, "component", &["x", "y"])?;
+    write_values(&file, record, &frame)?;
+    write_fields(&file, record, [&frame, &node, &component])?;
+    write_steps(&file, record)?;
+    provenance::write(&file, record)?;
+    hdf5_image::file_image(&file).map_err(building("the image of the file"))
+}
+
+/// A file that exists in memory only.
+fn in_memory() -> Result<File, StorageError> {
+    // The library takes two open files of one name for the same file.
+    static COUNTER: AtomicU64 = AtomicU64::new(0);
+    let name = format!("curveflow-{}", COUNTER.fetch_add(1, Ordering::Relaxed));
+    let version = LibraryVersion::V110; // the first with checksums in all metadata
+    File::with_options()
+        .with_fapl(|plist| plist.core_options(1 << 20, false).libver_bounds(version, version))
+        .create(name)
+        .map_err(building("a file"))
+}
+
+fn write_values(file: &File, record: &Record, frame: &Axis) -> Result<(), StorageError> {
+    for entry in FRAME_VALUES {
+        let values = per_frame(record, |frame| *(entry.get)(frame));
+        let meaning = Meaning { long_name: entry.long_name, units: entry.units };
+        dataset(file, entry.name, &[frame], &meaning, &values)?;
+    }
+    for list in NAMED_VALUES {
+        let group = file.create_group(list.group).map_err(building(list.group))?;
+        for (i, name) in (list.names)(record).iter().enumerate() {
+            let values = per_frame(record, |frame| (list.get)(frame)[i]);
+            let meaning = Meaning { long_name: &format!("{} {name}", list.long_name), units: list.units };
+            dataset(&group, name, &[frame], &meaning, &values)?;
+        }
+    }
+    Ok(())
+}
+
+fn write_fields(file: &File, record: &Record, axes: [&Axis; 3]) -> Result<(), StorageError> {
+    let [frame, node, component] = axes;
+    let n = record.nodes();
+    let parameter: Vec<f64> = (0..n).map(|i| i as f64 / n as f64).collect();
+    let meaning = Meaning { long_name: "parameter s of the node", units: "1" };
+    dataset(file, "parameter", &[node], &meaning, &parameter)?;
+    for entry in NODAL_FIELDS {
+        let values = flat(record, |frame| (entry.get)(frame).as_slice());
+        let meaning = Meaning { long_name: entry.long_name, units: entry.units };
+        dataset(file, entry.name, &[frame, node], &meaning, &values)?;
+    }
+    let position = flat(record, |frame| frame.position.as_flattened());
+    let meaning = Meaning { long_name: "position of the node", units: "length_unit" };
+    dataset(file, "position", &[frame, node, component], &meaning, &position)?;
+    let group = file.create_group("density").map_err(building("density"))?;
+    for (i, name) in record.densities.iter().enumerate() {
+        let values = flat(record, |frame| &frame.density[i]);
+        let meaning = Meaning { long_name: &format!("density of {name}"), units: "density_unit" };
+        dataset(&group, name, &[frame, node], &meaning, &values)?;
+    }
+    Ok(())
+}
+
+fn write_steps(file: &File, record: &Record) -> Result<(), StorageError> {
+    let steps = &record.steps;
+    let group = file.create_group("steps").map_err(building("steps"))?;
+    let step = axis(&group, "step", steps.time.len())?;
+    write_text(&group, "coordinates", "time")?;
+    for entry in STEP_VALUES {
+        let meaning = Meaning { long_name: entry.long_name, units: entry.units };
+        dataset(&group, entry.name, &[&step], &meaning, (entry.get)(steps))?;
+    }
+    let meaning = Meaning { long_name: "order of the method", units: "1" };
+    dataset(&group, "order", &[&step], &meaning, &steps.order)?;
+    let rejections = group.create_group("rejections").map_err(building("rejections"))?;
+    for cause in CAUSES {
+        let counts: Vec<u64> = steps.rejections.iter().map(|counts| *(cause.get)(counts)).collect();
+        let meaning = Meaning { long_name: cause.long_name, units: cause.units };
+        dataset(&rejections, cause.name, &[&step], &meaning, &counts)?;
+    }
+    Ok(())
+}
+
+fn per_frame(record: &Record, value: impl Fn(&Frame) -> f64) -> Vec<f64> {
+    record.frames.iter().map(value).collect()
+}
+
+fn flat<'a>(record: &'a Record, field: impl Fn(&'a Frame) -> &'a [f64]) -> Vec<f64> {
+    record.frames.iter().flat_map(field).copied().collect()
+}
+
+/// A file is a set of rectangles: every frame has the same sizes, every step an entry in each list.
+fn check_rectangular(record: &Record) -> Result<(), StorageError> {
+    let n = record.nodes();
+    let (terms, densities) = (record.energy_terms.len(), record.densities.len());
+    for (index, frame) in record.frames.iter().enumerate() {
+        check("energy_terms", index, frame.energy_terms.len(), terms)?;
+        check("mass", index, frame.mass.len(), densities)?;
+        check("density", index, frame.density.len(), densities)?;
+        check("position", index, frame.position.len(), n)?;
+        for entry in NODAL_FIELDS {
+            check(entry.name, index, (entry.get)(frame).len(), n)?;
+        }
+        for density in &frame.density {
+            check("density", index, density.len(), n)?;
+        }
+    }
+    let steps = record.steps.time.len();
+    for (index, entry) in STEP_VALUES.iter().enumerate() {
+        check("steps", index, (entry.get)(&record.steps).len(), steps)?;
+    }
+    check("steps/order", 0, record.steps.order.len(), steps)?;
+    check("steps/rejections", 0, record.steps.rejections.len(), steps)
+}
+
+fn check(item: &'static str, index: usize, found: usize, expected: usize) -> Result<(), StorageError> {
+    if found == expected { Ok(()) } else { Err(StorageError::Ragged { item, index, found, expected }) }
+}

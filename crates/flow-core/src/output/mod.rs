@@ -1,0 +1,10 @@
+//! Writers that turn a [`Record`](crate::run::Record) into files, and the reader that brings it back.
+
+pub mod atomic_file;
+#[cfg(feature = "hdf5")]
+pub mod hdf5_file;
+#[cfg(feature = "picture")]
+pub mod picture;
+mod storage_error;
+
+pub use storage_error::{Operation, StorageError};

@@ -1,0 +1,102 @@
+//! Why a file could not be written or read: each message names the file, the operation, the reason, a remedy.
+
+use std::error::Error;
+use std::fmt;
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+
+/// What was being done to a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operation {
+    /// Making the temporary file beside the target.
+    Create,
+    /// Writing the bytes.
+    Write,
+    /// Handing the bytes to the disk (fsync).
+    Sync,
+    /// Giving the file its name.
+    Rename,
+    /// Reading the file.
+    Read,
+}
+
+impl fmt::Display for Operation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Create => "create a file beside it",
+            Self::Write => "write",
+            Self::Sync => "hand the bytes to the disk",
+            Self::Rename => "give the finished file its name",
+            Self::Read => "read",
+        })
+    }
+}
+
+/// Why a file could not be written or read. A failed write leaves the target as it was.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+#[allow(missing_docs)] // each message names its fields
+pub enum StorageError {
+    /// The target exists and may not be replaced.
+    #[error("{}: already exists; choose another name, or ask for it to be replaced", .path.display())]
+    Exists { path: PathBuf },
+    /// The target is write-protected: replacing it would undo a decision of its owner.
+    #[error("{}: is write-protected; choose another name, or make it writable first", .path.display())]
+    Protected { path: PathBuf },
+    /// The path names a folder, a device or a pipe.
+    #[error("{}: is not a plain file; give the name of a file", .path.display())]
+    NotAFile { path: PathBuf },
+    /// The folder of the target does not exist.
+    #[error("{}: the folder {} does not exist; create it first", .path.display(), .folder.display())]
+    FolderMissing { path: PathBuf, folder: PathBuf },
+    /// The operating system refused.
+    #[error("{}: cannot {operation}: {reason}; {}", .path.display(), remedy(*.operation, .reason))]
+    System { path: PathBuf, operation: Operation, reason: io::Error },
+    /// Frame or step data do not fit together, so the file could not be rectangular.
+    #[error(
+        "{item} holds {found} values in frame or column {index}, expected {expected}: a bug, please report it"
+    )]
+    Ragged { item: &'static str, index: usize, found: usize, expected: usize },
+    /// The HDF5 library failed to build the file in memory; the disk was not touched.
+    #[error("building {item} in memory failed; free some memory, or ask for fewer frames")]
+    Build { item: String, source: Box<dyn Error + Send + Sync> },
+    /// The file is not HDF5 at all.
+    #[error("{}: is not an HDF5 file; give a result file of Curveflow", .path.display())]
+    NotHdf5 { path: PathBuf },
+    /// The file is HDF5, but was not written by this program.
+    #[error("{}: is an HDF5 file, but its attribute Conventions is {found:?}, not \"{expected}\"; \
+             give a result file of Curveflow", .path.display())]
+    Foreign { path: PathBuf, found: Option<String>, expected: &'static str },
+    /// The file is truncated or its content does not pass a checksum.
+    #[error("{}: is truncated or damaged at {item}; restore it from a copy, or run the scene again",
+            .path.display())]
+    Damaged { path: PathBuf, item: String, source: Box<dyn Error + Send + Sync> },
+}
+
+impl StorageError {
+    /// `true` if a file to be read is not one of ours, or no longer readable.
+    #[must_use]
+    pub fn is_unreadable_file(&self) -> bool {
+        matches!(self, Self::NotHdf5 { .. } | Self::Foreign { .. } | Self::Damaged { .. })
+    }
+
+    #[cold]
+    pub(super) fn system(path: &Path, operation: Operation, reason: io::Error) -> Self {
+        Self::System { path: path.to_path_buf(), operation, reason }
+    }
+}
+
+/// One thing to try.
+fn remedy(operation: Operation, reason: &io::Error) -> &'static str {
+    match reason.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "free some space, or choose another disk",
+        ErrorKind::FileTooLarge => "raise the file size limit (ulimit -f), or ask for fewer frames",
+        ErrorKind::PermissionDenied if operation == Operation::Read => "ask its owner for read access",
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => "choose a folder you may write to",
+        ErrorKind::NotFound if operation == Operation::Read => "check the name",
+        ErrorKind::IsADirectory => "give the name of a file",
+        ErrorKind::InvalidFilename => "choose a shorter name",
+        _ if operation == Operation::Read => "check the disk, or copy the file to another one",
+        _ => "choose another folder",
+    }
+}

@@ -1,0 +1,85 @@
+//! Figures: both formats are written, and odd records neither panic nor draw outside the page.
+#![allow(clippy::unwrap_used)] // a failed test may panic
+#![cfg(feature = "picture")]
+
+mod synthetic;
+
+use std::fs;
+use std::path::PathBuf;
+
+use flow_core::output::picture::{NodalLines, Options, PictureError, plot};
+use flow_core::run::{Record, StepLog};
+
+/// Draws `record` as SVG and PNG; returns the SVG. The files stay if `CURVEFLOW_KEEP_FIGURES` names a folder.
+fn draw(record: &Record, name: &str) -> String {
+    let keep = std::env::var_os("CURVEFLOW_KEEP_FIGURES").map(PathBuf::from);
+    let folder = keep.clone().unwrap_or_else(std::env::temp_dir);
+    let rho = (0..=100).map(|i| 0.01 * f64::from(i));
+    let kappa = (0..=200).map(|i| -4.0 + 0.04 * f64::from(i));
+    let bump =
+        |base: f64, size: f64, centre: f64, kappa: f64| base + size * (-(kappa - centre).powi(2)).exp();
+    let nodal_lines = Some(NodalLines {
+        preferred_curvature: rho.map(|rho| (rho, 1.3 - 2.63 * (rho - 0.19))).collect(),
+        low: kappa.clone().map(|kappa| (bump(0.05, 0.16, 1.0, kappa), kappa)).collect(),
+        high: kappa.map(|kappa| (bump(0.8, 0.18, -0.3, kappa), kappa)).collect(),
+    });
+    let options = Options { replace: true, nodal_lines, ..Options::default() };
+    let path = |extension: &str| folder.join(format!("curveflow-{name}-{}.{extension}", std::process::id()));
+    let start = std::time::Instant::now();
+    plot(record, &path("png"), &options).unwrap();
+    println!("{name}: PNG in {:?}", start.elapsed());
+    plot(record, &path("svg"), &options).unwrap();
+    let (png, svg) = (fs::read(path("png")).unwrap(), fs::read_to_string(path("svg")).unwrap());
+    if keep.is_none() {
+        fs::remove_file(path("png")).unwrap();
+        fs::remove_file(path("svg")).unwrap();
+    }
+    assert!(png.starts_with(b"\x89PNG"));
+    svg
+}
+
+/// All coordinates of an SVG document lie on the page of 1600 × 900.
+fn assert_inside(svg: &str) {
+    for outline in svg.split("<path d=\"").skip(1) {
+        let outline = outline.split('"').next().unwrap();
+        let numbers =
+            outline.split(|c: char| c.is_ascii_uppercase() || c == ' ').filter(|text| !text.is_empty());
+        let numbers: Vec<f64> = numbers.map(|text| text.parse().unwrap()).collect();
+        for point in numbers.chunks_exact(2) {
+            let inside = (0.0..=1600.0).contains(&point[0]) && (0.0..=900.0).contains(&point[1]);
+            assert!(inside, "{point:?}");
+        }
+    }
+}
+
+#[test]
+fn figures_stay_on_the_page() {
+    assert_inside(&draw(&synthetic::record(200, 512, &["protein"]), "density"));
+    assert_inside(&draw(&synthetic::record(200, 512, &[]), "curvature"));
+}
+
+#[test]
+fn odd_records_are_drawn() {
+    let mut record = synthetic::record(1, 64, &["a component with a rather long name"]);
+    record.title = "A very long title, longer than any page is wide, ".repeat(4);
+    record.steps = StepLog::default();
+    draw(&record, "one-frame");
+    let mut record = synthetic::record(5, 64, &["protein"]);
+    record.frames[4].energy = f64::NAN;
+    record.frames[4].density[0].fill(0.5);
+    record.frames[4].position[3] = [f64::NAN, 0.0];
+    record.frames.iter_mut().for_each(|frame| frame.length *= 1e-7);
+    assert_inside(&draw(&record, "odd"));
+}
+
+#[test]
+fn a_figure_needs_a_state_and_a_known_format() {
+    let mut record = synthetic::record(1, 16, &[]);
+    let nowhere = std::env::temp_dir().join("curveflow.pdf");
+    assert!(matches!(plot(&record, &nowhere, &Options::default()), Err(PictureError::Format { .. })));
+    let no_pixels = Options { width: 0, ..Options::default() };
+    let path = nowhere.with_extension("png");
+    assert!(matches!(plot(&record, &path, &no_pixels), Err(PictureError::Size { width: 0 })));
+    record.frames.clear();
+    assert!(matches!(plot(&record, &path, &Options::default()), Err(PictureError::NoFrames)));
+}

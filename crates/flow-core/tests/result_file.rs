@@ -1,0 +1,144 @@
+//! Result files: what is written is read back, and damage is a typed error.
+#![allow(clippy::unwrap_used)] // a failed test may panic
+#![cfg(feature = "hdf5")]
+
+mod synthetic;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use flow_core::output::{StorageError, hdf5_file};
+use flow_core::run::{Record, StepLog, StopReason};
+
+/// A fresh folder, removed at the end of the test.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("curveflow-{name}-{}", std::process::id()));
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    fn file(&self, name: &str) -> PathBuf {
+        self.0.join(name)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn round_trip(record: &Record, path: &Path) {
+    hdf5_file::write(record, path, true).unwrap();
+    assert!(*record == hdf5_file::read(path).unwrap());
+}
+
+#[test]
+fn what_is_written_is_read_back() {
+    let folder = Folder::new("round-trip");
+    let path = folder.file("out.h5");
+    round_trip(&synthetic::record(7, 64, &["protein", "a lipid, β"]), &path);
+    round_trip(&synthetic::record(3, 1000, &[]), &path);
+    let mut failed = synthetic::record(1, 16, &["protein"]);
+    failed.stop_reason = StopReason::Failed("κ is not finite at node 3, t = 1.0e-2".to_owned());
+    failed.energy_terms.clear();
+    failed.frames[0].energy_terms.clear();
+    failed.steps = StepLog::default();
+    failed.frames[0].energy = f64::INFINITY;
+    round_trip(&failed, &path);
+    failed.frames.clear();
+    round_trip(&failed, &path);
+}
+
+#[test]
+fn nothing_is_written_where_nothing_may_be() {
+    let folder = Folder::new("refused");
+    let record = synthetic::record(2, 16, &[]);
+    let path = folder.file("out.h5");
+    fs::write(&path, "kept").unwrap();
+    assert!(matches!(hdf5_file::write(&record, &path, false), Err(StorageError::Exists { .. })));
+    let missing = folder.0.join("none").join("out.h5");
+    assert!(matches!(hdf5_file::write(&record, &missing, false), Err(StorageError::FolderMissing { .. })));
+    let mut ragged = record.clone();
+    ragged.frames[1].curvature.pop();
+    assert!(matches!(hdf5_file::write(&ragged, &path, true), Err(StorageError::Ragged { .. })));
+    assert_eq!(fs::read_to_string(&path).unwrap(), "kept");
+    assert_eq!(fs::read_dir(&folder.0).unwrap().count(), 1);
+}
+
+#[test]
+fn foreign_files_are_named() {
+    let folder = Folder::new("foreign");
+    let path = folder.file("out.h5");
+    assert!(matches!(hdf5_file::read(&path), Err(StorageError::System { .. })));
+    assert!(matches!(hdf5_file::read(&folder.0), Err(StorageError::NotAFile { .. })));
+    for content in ["", "title = \"a scene\""] {
+        fs::write(&path, content).unwrap();
+        assert!(matches!(hdf5_file::read(&path), Err(StorageError::NotHdf5 { .. })));
+    }
+    fs::write(&path, include_bytes!("data/foreign.h5")).unwrap(); // empty, made by h5py
+    let error = hdf5_file::read(&path).unwrap_err();
+    assert!(matches!(error, StorageError::Foreign { found: None, .. }) && error.is_unreadable_file());
+}
+
+/// Cut at any length, the file is recognised as damaged.
+#[test]
+fn truncation_is_an_error() {
+    let folder = Folder::new("truncated");
+    let path = folder.file("out.h5");
+    let bytes = hdf5_file::to_bytes(&synthetic::record(4, 64, &["protein"])).unwrap();
+    for length in (8..bytes.len()).step_by(bytes.len() / 40) {
+        fs::write(&path, &bytes[..length]).unwrap();
+        assert!(matches!(hdf5_file::read(&path), Err(StorageError::Damaged { .. })), "{length} bytes");
+    }
+}
+
+/// A flipped bit is an error or harmless (unused space), never a wrong number.
+#[test]
+fn flipped_bits_are_never_read_as_data() {
+    let folder = Folder::new("flipped");
+    let path = folder.file("out.h5");
+    let record = synthetic::record(4, 64, &["protein"]);
+    let bytes = hdf5_file::to_bytes(&record).unwrap();
+    let mut found = 0;
+    let mut silent = Vec::new();
+    for i in 0..400_usize {
+        let position = (i * 2_654_435_761) % bytes.len();
+        let mut damaged = bytes.clone();
+        damaged[position] ^= 1 << (i % 8);
+        fs::write(&path, &damaged).unwrap();
+        match hdf5_file::read(&path) {
+            Ok(read) if read != record => silent.push(position),
+            Ok(_) => {}
+            Err(error) => {
+                assert!(error.is_unreadable_file(), "{error}");
+                found += 1;
+            }
+        }
+    }
+    assert!(silent.is_empty(), "silently wrong after a flip at {silent:?}");
+    assert!(found > 100, "only {found} of 400 flips noticed");
+}
+
+/// Needs the right to mount: `cargo test --features hdf5 -- --ignored full_disk`, as root on Linux.
+#[test]
+#[ignore = "mounts a small file system"]
+fn a_full_disk_is_an_error_and_the_old_file_stays() {
+    let folder = Folder::new("full-disk");
+    let mount = |args: &[&str]| std::process::Command::new(args[0]).args(&args[1..]).arg(&folder.0).status();
+    assert!(mount(&["mount", "-t", "tmpfs", "-o", "size=512k", "tmpfs"]).unwrap().success());
+    let path = folder.file("out.h5");
+    let result = std::panic::catch_unwind(|| {
+        let small = synthetic::record(2, 64, &[]);
+        hdf5_file::write(&small, &path, false).unwrap();
+        let error = hdf5_file::write(&synthetic::record(200, 512, &[]), &path, true).unwrap_err();
+        assert!(error.to_string().contains("free some space"), "{error}");
+        assert!(hdf5_file::read(&path).unwrap() == small);
+        assert_eq!(fs::read_dir(&folder.0).unwrap().count(), 1);
+    });
+    assert!(mount(&["umount"]).unwrap().success());
+    result.unwrap();
+}
