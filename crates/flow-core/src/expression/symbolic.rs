@@ -1,0 +1,105 @@
+//! A parsed expression: its text, its graph, and its slow, obvious evaluation.
+
+use super::derivative::differentiate;
+use super::error::ExpressionError;
+use super::graph::Node;
+use super::parse::parse;
+
+/// A function of named variables, written as text or derived from one that was.
+#[derive(Clone, Debug)]
+pub struct Expression {
+    text: String,
+    variables: Vec<String>,
+    /// Operands before the nodes that use them; the last node is the value.
+    nodes: Vec<Node>,
+}
+
+impl Expression {
+    /// Reads `text` as a function of `variables`; a variable's index is its position in that list.
+    /// # Errors
+    /// [`ExpressionError`], with the column of the first mistake and what may stand there.
+    pub fn parse(text: &str, variables: &[&str]) -> Result<Self, ExpressionError> {
+        let nodes = parse(text, variables)?;
+        let variables = variables.iter().map(|&name| name.to_owned()).collect();
+        Ok(Self { text: text.to_owned(), variables, nodes })
+    }
+
+    /// The function that is `value` everywhere.
+    #[must_use]
+    pub fn constant(value: f64) -> Self {
+        Self { text: value.to_string(), variables: Vec::new(), nodes: vec![Node::Constant(value)] }
+    }
+
+    /// The exact derivative by the variable at index `variable`, simplified; that of `abs` at 0 is taken as 0.
+    ///
+    /// Its [`text`](Self::text) is `d(…)/d(name)` around the text of `self`.
+    /// # Errors
+    /// [`ExpressionError::TooManyTerms`] if the derivative grows beyond bounds.
+    pub fn derivative(&self, variable: usize) -> Result<Self, ExpressionError> {
+        let nodes = differentiate(&self.nodes, variable)?;
+        let name = self.variables.get(variable).map_or("?", String::as_str);
+        let text = format!("d({})/d({name})", self.text);
+        Ok(Self { text, variables: self.variables.clone(), nodes })
+    }
+
+    /// Whether the variable at index `variable` occurs in the expression.
+    #[must_use]
+    pub fn depends_on(&self, variable: usize) -> bool {
+        self.nodes.iter().any(|node| matches!(node, Node::Variable(index) if *index == variable))
+    }
+
+    /// The text the expression was read from.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The value where the variables have the given `values`: the reference for [`Program`](super::Program).
+    /// # Shapes
+    /// `values`: one value per variable, in the order given to [`parse`](Self::parse).
+    #[must_use]
+    pub fn evaluate(&self, values: &[f64]) -> f64 {
+        let mut results = Vec::with_capacity(self.nodes.len());
+        for node in &self.nodes {
+            results.push(match *node {
+                Node::Constant(value) => value,
+                Node::Variable(variable) => values[variable],
+                Node::Unary(function, a) => function.apply(results[a]),
+                Node::Binary(operator, a, b) => operator.apply(results[a], results[b]),
+            });
+        }
+        results[results.len() - 1]
+    }
+
+    /// The graph, operands first, the value last.
+    pub(super) fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(text: &str, x: f64) -> f64 {
+        Expression::parse(text, &["x"]).unwrap().evaluate(&[x])
+    }
+
+    #[test]
+    fn every_function_has_its_value() {
+        assert_eq!(at("exp(x) + ln(x) + sqrt(x)", 2.0), 2f64.exp() + 2f64.ln() + 2f64.sqrt());
+        assert_eq!(at("sin(x) + cos(x) + tan(x)", 2.0), 2f64.sin() + 2f64.cos() + 2f64.tan());
+        assert_eq!(at("sinh(x) + cosh(x) + tanh(x)", 2.0), 2f64.sinh() + 2f64.cosh() + 2f64.tanh());
+        assert_eq!(at("abs(-x) * pi", 2.0), 2.0 * std::f64::consts::PI);
+    }
+
+    #[test]
+    fn text_and_dependence_follow_the_derivative() {
+        let expression = Expression::parse("x*y + y", &["x", "y"]).unwrap();
+        let slope = expression.derivative(0).unwrap();
+        assert_eq!(slope.text(), "d(x*y + y)/d(x)");
+        assert!(!slope.depends_on(0) && slope.depends_on(1));
+        assert_eq!(Expression::constant(2.5).text(), "2.5");
+        assert_eq!(Expression::constant(2.5).derivative(0).unwrap().evaluate(&[]), 0.0);
+    }
+}
