@@ -7,6 +7,7 @@ mod closure;
 mod embedding;
 mod grid;
 mod measures;
+pub mod shapes;
 mod state;
 
 pub use closure::{Closure, ClosureError};
