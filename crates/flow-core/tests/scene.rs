@@ -1,6 +1,6 @@
 //! Scenes that are right: what they hold, what they are written back as, and how `--set` changes them.
 
-use flow_core::run::scene::{Derivative, Frames, Integrator, Length, LengthTarget, Nodes, Scene, Shape, Spacing};
+use flow_core::run::scene::{Derivative, Frames, Length, LengthTarget, Nodes, Scene, Shape, Spacing};
 
 const SMALL: &str = "
 curve = { shape = 'circle', radius = 2 }
@@ -59,10 +59,7 @@ fn defaults() {
     assert_eq!(scene.title, "");
     assert!(scene.density.is_empty() && scene.time.stop_at_equilibrium && scene.time.max_steps.is_none());
     assert_eq!((scene.accuracy.tolerance, scene.accuracy.nodes), (1e-5, Nodes::Auto));
-    assert_eq!(
-        (scene.accuracy.derivative, scene.accuracy.integrator),
-        (Derivative::Fourier, Integrator::Auto)
-    );
+    assert_eq!(scene.accuracy.derivative, Derivative::Fourier);
     assert_eq!(scene.output.frames, Frames::Spaced { frames: 200, spacing: Spacing::Linear });
     assert_same(&parse(&scene.to_toml()), &scene);
 }

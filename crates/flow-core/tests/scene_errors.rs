@@ -102,7 +102,11 @@ const MISTAKES: &[Mistake] = &[
         "derivative = \"central-5\"",
         &["line 23", "\"central-5\"", "did you mean `central-", "`fourier`"],
     ),
-    ("nodes = 256", "integrator = \"euler\"", &["line 23", "`accuracy.integrator`", "\"euler\"", "`bdf`"]),
+    (
+        "nodes = 256",
+        "linear_solver = \"magic\"",
+        &["line 23", "`accuracy.linear_solver`", "\"magic\"", "`banded`"],
+    ),
     ("end = 1.0", "end = inf", &["line 19", "`time.end` = inf", "finite", "try end"]),
     ("end = 1.0", "end = 0", &["line 19", "`time.end` = 0", "greater than 0", "try end"]),
     (
@@ -112,7 +116,7 @@ const MISTAKES: &[Mistake] = &[
     ),
     (
         "end = 1.0",
-        "end = 1.0\nequilibrium_ratio = 1",
+        "end = 1.0\nequilibrium_tolerance = 1",
         &["line 20", "= 1 ", "greater than 0 and at most 0.01", "1e-14"],
     ),
     (

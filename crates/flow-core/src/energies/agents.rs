@@ -1,7 +1,9 @@
 //! Curvature agents: ∫ (δ/2)|∇_sκ|² + f/δ + (ε/2)|∇_sρ|² + F/ε dσ with f = ½(κ − κ₀(ρ))² and
 //! F = 4(ρ − ρ₋(κ))²(ρ − ρ₊(κ))². See `THEORY.md`, eq. (E4).
 
-use super::{EnergyTerm, Fields, Jet, Order};
+use std::cmp::Ordering;
+
+use super::{EnergyTerm, Fields, Jet, Order, TermFault};
 use crate::expression::{Expression, ExpressionError, Program};
 
 /// The nodal functions of the potentials, as expressions of one variable each.
@@ -83,6 +85,15 @@ impl EnergyTerm for Agents {
             _ if field == self.field => self.epsilon,
             _ => 0.0,
         }
+    }
+
+    fn fault(&self, fields: Fields<'_>) -> Option<TermFault> {
+        let nodes = fields.nodes();
+        let (low, high) = (&self.lines[2 * nodes..3 * nodes], &self.lines[4 * nodes..5 * nodes]);
+        let node =
+            low.iter().zip(high).position(|(low, high)| low.partial_cmp(high) != Some(Ordering::Less))?;
+        let curvature = fields.get(0)[node];
+        Some(TermFault::NodalLinesMeet { node, curvature, low: low[node], high: high[node] })
     }
 
     fn add_density(&mut self, fields: Fields<'_>, jet: &mut Jet) {

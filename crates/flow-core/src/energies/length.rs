@@ -26,11 +26,7 @@ impl EnergyTerm for Length {
             Self::Tension(sigma) => LengthJet { value: sigma * length, first: sigma, second: 0.0 },
             Self::Penalty { penalty, target } => {
                 let excess = length - target;
-                LengthJet {
-                    value: 0.5 * penalty * excess * excess,
-                    first: penalty * excess,
-                    second: penalty,
-                }
+                LengthJet { value: 0.5 * penalty * excess * excess, first: penalty * excess, second: penalty }
             }
         }
     }

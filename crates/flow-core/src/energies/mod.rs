@@ -7,6 +7,7 @@
 
 mod agents;
 mod bending;
+mod fault;
 mod jet;
 mod length;
 mod local;
@@ -16,6 +17,7 @@ use std::fmt::Debug;
 
 pub use agents::{Agents, NodalLines};
 pub use bending::Bending;
+pub use fault::TermFault;
 pub use jet::{Fields, Jet, Order};
 pub use length::Length;
 pub use local::Local;
@@ -63,5 +65,10 @@ pub trait EnergyTerm: Debug + Send + Sync {
     /// The part that depends on the length alone.
     fn of_length(&self, _length: f64) -> LengthJet {
         LengthJet::default()
+    }
+
+    /// What is wrong with the data that the term was evaluated on last, if anything.
+    fn fault(&self, _fields: Fields<'_>) -> Option<TermFault> {
+        None
     }
 }

@@ -5,7 +5,7 @@
 
 use super::curve_fields::CurveFields;
 use super::slope_energy::SlopeEnergy;
-use crate::energies::{EnergyTerm, Fields, Jet, LengthJet, Order};
+use crate::energies::{EnergyTerm, Fields, Jet, LengthJet, Order, TermFault};
 use crate::geometry::{Complex64, Layout, PeriodicGrid};
 use crate::operators::Derivative;
 
@@ -66,6 +66,13 @@ impl EnergySum {
     /// Names of the terms.
     pub fn names(&self) -> impl Iterator<Item = &'static str> + '_ {
         self.terms.iter().map(|term| term.name())
+    }
+
+    /// What a term finds wrong with the state evaluated last, whose fields are `at`.
+    #[must_use]
+    pub fn fault(&self, at: &CurveFields) -> Option<TermFault> {
+        let fields = Fields::new(self.layout.nodes(), at.pointwise());
+        self.terms.iter().find_map(|term| term.fault(fields))
     }
 
     /// Coefficients of ½∫|∇_sφ|² dσ, by field.
@@ -227,7 +234,8 @@ impl EnergySum {
             by_length += slopes.add_hessian_product(at, &self.motion_spectra, length_motion, out);
         }
         for field in 0..fields {
-            by_length -= self.mean_product(at.spectrum(field), &out.spectra[field * modes..(field + 1) * modes]);
+            by_length -=
+                self.mean_product(at.spectrum(field), &out.spectra[field * modes..(field + 1) * modes]);
         }
         out.by_length = by_length;
     }

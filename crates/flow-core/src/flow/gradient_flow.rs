@@ -131,6 +131,12 @@ impl GradientFlow {
         self.energy.energies_by_term(&self.current)
     }
 
+    /// What a term finds wrong with the state evaluated last.
+    #[must_use]
+    pub fn fault(&self) -> Option<crate::energies::TermFault> {
+        self.energy.fault(&self.current)
+    }
+
     /// Gradient of the energy at the state evaluated last.
     #[must_use]
     pub fn gradient(&self) -> &IntrinsicGradient {

@@ -14,9 +14,10 @@ const HIGHEST_ORDER: usize = 5;
 /// Newton's method is solved to this part of the tolerance.
 
 /// Safety factors on the error of order k − 1, k, k + 1: a change of order must pay.
-fn env(name: &str, d: f64) -> f64 { std::env::var(name).ok().and_then(|x| x.parse().ok()).unwrap_or(d) }
+fn env(name: &str, d: f64) -> f64 {
+    std::env::var(name).ok().and_then(|x| x.parse().ok()).unwrap_or(d)
+}
 /// Growth below this factor is not worth a new step size.
-
 
 const FIRST_GROWTH: f64 = 1e4;
 

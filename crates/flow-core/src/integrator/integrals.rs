@@ -7,11 +7,8 @@ use super::history::lagrange;
 /// Values that a polynomial goes through.
 const POINTS: usize = 5;
 /// Nodes and weights of the three-point Gauss rule on [0, 1], exact for the polynomials used.
-const GAUSS: [(f64, f64); 3] = [
-    (0.112_701_665_379_258_31, 5.0 / 18.0),
-    (0.5, 8.0 / 18.0),
-    (0.887_298_334_620_741_7, 5.0 / 18.0),
-];
+const GAUSS: [(f64, f64); 3] =
+    [(0.112_701_665_379_258_31, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
 
 /// The integrals with the history of their rates, newest first.
 #[derive(Clone, Debug)]
@@ -27,12 +24,7 @@ impl Integrals {
     /// Integrals that are zero at time 0, where the rates are `rates`.
     #[must_use]
     pub fn new(rates: [f64; INTEGRALS]) -> Self {
-        Self {
-            times: [0.0; POINTS],
-            rates: [rates; POINTS],
-            filled: 1,
-            values: [[0.0; INTEGRALS]; 2],
-        }
+        Self { times: [0.0; POINTS], rates: [rates; POINTS], filled: 1, values: [[0.0; INTEGRALS]; 2] }
     }
 
     /// Values at the last time.

@@ -138,8 +138,15 @@ impl NewtonKrylov {
             {
                 *correction = constant + gamma * rate - y;
             }
-            let solved =
-                self.gmres.solve(problem, norm, gamma, 0.5 * goal, KRYLOV_REDUCTION, &mut self.correction, counters);
+            let solved = self.gmres.solve(
+                problem,
+                norm,
+                gamma,
+                0.5 * goal,
+                KRYLOV_REDUCTION,
+                &mut self.correction,
+                counters,
+            );
             if problem.krylov_feedback(solved.iterations) {
                 self.factorised_gamma = None;
             }

@@ -36,8 +36,7 @@ struct Stencil {
 }
 
 const CENTRAL_2: Stencil = Stencil { difference: &[1.0], mean: &[1.0] };
-const CENTRAL_4: Stencil =
-    Stencil { difference: &[9.0 / 8.0, -1.0 / 24.0], mean: &[9.0 / 8.0, -1.0 / 8.0] };
+const CENTRAL_4: Stencil = Stencil { difference: &[9.0 / 8.0, -1.0 / 24.0], mean: &[9.0 / 8.0, -1.0 / 8.0] };
 const CENTRAL_6: Stencil = Stencil {
     difference: &[75.0 / 64.0, -25.0 / 384.0, 3.0 / 640.0],
     mean: &[150.0 / 128.0, -25.0 / 128.0, 3.0 / 128.0],
@@ -90,8 +89,10 @@ impl Derivative {
     #[must_use]
     pub fn new(family: DerivativeFamily, grid: &PeriodicGrid) -> Self {
         let to_flux: Vec<_> = (0..grid.modes()).map(|mode| Self::flux_symbol(family, grid, mode)).collect();
-        let inverse_to_flux =
-            to_flux.iter().map(|d| if d.norm_sqr() == 0.0 { Complex64::default() } else { 1.0 / d }).collect();
+        let inverse_to_flux = to_flux
+            .iter()
+            .map(|d| if d.norm_sqr() == 0.0 { Complex64::default() } else { 1.0 / d })
+            .collect();
         let interpolation = family.stencil().map(|stencil| {
             (0..grid.modes()).map(|mode| Self::mean_symbol(stencil, grid, mode)).collect::<Vec<_>>()
         });

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::flow::{GradientFlow, LinearSolver, Preconditioner, Rate};
-use crate::geometry::{Closure, StateRef};
+use crate::geometry::{Closure, Layout};
 use crate::integrator::{Finish, INTEGRALS, Problem};
 
 /// Index of ∫ dissipation dt among the integrals.
@@ -54,6 +54,12 @@ impl Membrane {
     /// The flow.
     pub fn flow(&mut self) -> &mut GradientFlow {
         &mut self.flow
+    }
+
+    /// Shape of the state.
+    #[must_use]
+    pub fn layout(&self) -> Layout {
+        self.flow.layout()
     }
 
     /// The projection onto closed curves.
@@ -168,10 +174,4 @@ impl Problem for Membrane {
     fn accepted(&mut self, time: f64, integrals: [f64; INTEGRALS]) {
         self.placed = [time, integrals[ANGLE], self.candidate_angle_rate];
     }
-}
-
-/// Masses of all densities of a state.
-#[must_use]
-pub fn masses(state: StateRef<'_>) -> Vec<f64> {
-    (0..state.layout().densities()).map(|density| state.mass(density)).collect()
 }

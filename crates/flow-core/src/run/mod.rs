@@ -1,12 +1,23 @@
 //! From a scene to a finished run.
 
+mod equilibrium;
+mod frames;
 mod membrane;
 mod observer;
 mod record;
+mod resolution;
 pub mod scene;
+mod schedule;
+mod setup;
+mod setup_error;
+mod simulation;
 
 pub use crate::integrator::{Counters, Rejections};
+pub use equilibrium::Equilibrium;
 pub use membrane::{ANGLE, CENTRE, DISSIPATED, Membrane};
 pub use observer::{Observer, Progress, Quiet};
 pub use record::{Frame, Record, StepLog, StopReason};
 pub use scene::{Scene, SceneError};
+pub use setup::{Setup, nodal_lines};
+pub use setup_error::SetupError;
+pub use simulation::{Simulation, run};

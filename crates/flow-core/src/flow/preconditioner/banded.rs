@@ -252,7 +252,8 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
         }
         self.matrix.solve(&mut self.interleaved);
         for field in 0..F {
-            for (value, target) in self.values.iter_mut().zip(self.interleaved.iter().skip(field).step_by(F)) {
+            for (value, target) in self.values.iter_mut().zip(self.interleaved.iter().skip(field).step_by(F))
+            {
                 *value = *target;
             }
             self.grid.transform(&self.values, &mut self.spectrum);

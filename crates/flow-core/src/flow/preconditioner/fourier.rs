@@ -51,8 +51,11 @@ impl FourierSymbol {
             for a in 0..fields {
                 let mobility = gamma * mobility_symbol(flow, a, *symbol, length);
                 for b in 0..fields {
-                    let stiffness =
-                        if a == b { flow.energy_terms().stiffness()[a] * symbol / (length * length) } else { 0.0 };
+                    let stiffness = if a == b {
+                        flow.energy_terms().stiffness()[a] * symbol / (length * length)
+                    } else {
+                        0.0
+                    };
                     let identity = if a == b { 1.0 } else { 0.0 };
                     block[a * fields + b] = identity + mobility * (means[a * fields + b] + stiffness);
                 }

@@ -24,7 +24,14 @@ impl LengthCoupling {
     #[must_use]
     pub fn new(size: usize) -> Self {
         let zero = vec![0.0; size];
-        Self { gamma: 0.0, nodes: 1, direction: zero.clone(), row: zero.clone(), response: zero, curvature: 0.0 }
+        Self {
+            gamma: 0.0,
+            nodes: 1,
+            direction: zero.clone(),
+            row: zero.clone(),
+            response: zero,
+            curvature: 0.0,
+        }
     }
 
     /// Sets the coupling at the frozen state, given the inverse of the fields.

@@ -54,7 +54,9 @@ impl Preconditioner {
         let modes = flow.grid_and_derivative().0.modes();
         let length_curvature = flow.energy_terms().of_length(1.0).second;
         let inverse = match kind {
-            LinearSolver::Auto | LinearSolver::Fourier => FieldInverse::Fourier(FourierSymbol::new(layout, modes)),
+            LinearSolver::Auto | LinearSolver::Fourier => {
+                FieldInverse::Fourier(FourierSymbol::new(layout, modes))
+            }
             LinearSolver::Banded => match banded::build(layout) {
                 Some(banded) => FieldInverse::Banded(banded, FourierSymbol::new(layout, modes)),
                 None => FieldInverse::Fourier(FourierSymbol::new(layout, modes)),
@@ -124,7 +126,10 @@ impl Preconditioner {
             FieldInverse::Dense(_) => {}
         }
         for field in 0..layout.fields() {
-            grid.synthesise(&mut self.spectra[field * modes..(field + 1) * modes], &mut r[layout.field(field)]);
+            grid.synthesise(
+                &mut self.spectra[field * modes..(field + 1) * modes],
+                &mut r[layout.field(field)],
+            );
         }
     }
 }

@@ -19,8 +19,6 @@ pub struct Accuracy {
     pub nodes: Nodes,
     /// Discrete derivative along the curve.
     pub derivative: Derivative,
-    /// Method of time integration.
-    pub integrator: Integrator,
     /// Solver of the linear systems of the implicit steps.
     pub linear_solver: LinearSolver,
 }
@@ -52,22 +50,6 @@ names! {
 }
 
 names! {
-    /// The method of time integration.
-    pub enum Integrator {
-        /// The program chooses. The default.
-        Auto = "auto",
-        /// Backward differentiation formulas of variable order.
-        Bdf = "bdf",
-        /// Linearly implicit Runge–Kutta methods.
-        Rosenbrock = "rosenbrock",
-        /// Diagonally implicit Runge–Kutta methods with an explicit first stage.
-        Esdirk = "esdirk",
-        /// Exponential time differencing.
-        Etdrk4 = "etdrk4",
-    }
-}
-
-names! {
     /// The solver of the linear systems of the implicit steps.
     pub enum LinearSolver {
         /// The program chooses. The default.
@@ -87,7 +69,6 @@ impl Default for Accuracy {
             tolerance: 1e-5,
             nodes: Nodes::Auto,
             derivative: Derivative::Fourier,
-            integrator: Integrator::Auto,
             linear_solver: LinearSolver::Auto,
         }
     }
@@ -101,14 +82,12 @@ impl Accuracy {
             tolerance.and_then(|entry| entry.number(Bound::Between(1e-11, 1e-1), "try 1e-5, the default"));
         let nodes = section.get("nodes").and_then(|entry| read_nodes(&entry));
         let derivative = section.get("derivative").and_then(|entry| entry.choice(&[]));
-        let integrator = section.get("integrator").and_then(|entry| entry.choice(&[]));
         let linear_solver = section.get("linear_solver").and_then(|entry| entry.choice(&[]));
         section.finish();
         Self {
             tolerance: tolerance.unwrap_or(default.tolerance),
             nodes: nodes.unwrap_or(default.nodes),
             derivative: derivative.unwrap_or(default.derivative),
-            integrator: integrator.unwrap_or(default.integrator),
             linear_solver: linear_solver.unwrap_or(default.linear_solver),
         }
     }

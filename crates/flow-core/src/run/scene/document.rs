@@ -13,7 +13,7 @@ use super::overrides;
 use super::report::Report;
 use super::section::Section;
 use super::shipped::SHIPPED;
-use super::{Accuracy, Curve, Density, Energy, Flow, Output, Time};
+use super::{Accuracy, Curve, Density, Energy, Flow, Nodes, Output, Time};
 
 /// Longer texts are not scenes.
 pub const MAX_SCENE_BYTES: usize = 1 << 20;
@@ -111,6 +111,14 @@ impl Scene {
     #[must_use]
     pub fn to_toml(&self) -> String {
         toml::to_string(self).expect("every scene can be written as TOML")
+    }
+
+    /// [`Scene::to_toml`] with the number of nodes that was chosen.
+    #[must_use]
+    pub fn resolved(&self, nodes: usize) -> String {
+        let mut resolved = self.clone();
+        resolved.accuracy.nodes = Nodes::Count(nodes);
+        resolved.to_toml()
     }
 
     /// Name and text of each scene that comes with the program.

@@ -40,7 +40,7 @@ mod shipped;
 mod suggest;
 mod time;
 
-pub use accuracy::{Accuracy, Derivative, Integrator, LinearSolver, Nodes};
+pub use accuracy::{Accuracy, Derivative, LinearSolver, Nodes};
 pub use curve::{Curve, Shape};
 pub use density::{Density, DensityMobility};
 pub use document::{MAX_SCENE_BYTES, Scene};

@@ -1,0 +1,101 @@
+//! When a flow is at rest, judged by its dissipation. See `THEORY.md`, eq. (I7).
+
+/// Part of the energy lost so far that counts as energy scale, where the energy itself is near zero.
+const PART_OF_LOSS: f64 = 1e-3;
+/// Energy below this part of the scale is rounding.
+const ROUNDING: f64 = 1e-15;
+/// Steps that must agree.
+const STEPS: u32 = 5;
+
+/// Watches the dissipation.
+///
+/// The energy still to be lost is about D·max(t, 1/2λ), with λ the rate at which the flow converges, measured
+/// as −½ d ln D/dt. The flow is at rest once this has stayed below a part of the energy while the time
+/// doubled. A flow that creeps (a metastable state) is at rest by this measure, to the tolerance asked for.
+#[derive(Clone, Debug)]
+pub struct Equilibrium {
+    tolerance: f64,
+    initial_energy: f64,
+    end: f64,
+    last: (f64, f64),
+    quiet_since: Option<f64>,
+    quiet_steps: u32,
+}
+
+impl Equilibrium {
+    /// A watch from an initial energy and dissipation, for a run until `end`.
+    #[must_use]
+    pub fn new(tolerance: f64, energy: f64, dissipation: f64, end: f64) -> Self {
+        Self {
+            tolerance,
+            initial_energy: energy,
+            end,
+            last: (0.0, dissipation),
+            quiet_since: None,
+            quiet_steps: 0,
+        }
+    }
+
+    /// Takes an accepted step; true if the flow is at rest.
+    pub fn reached(&mut self, time: f64, energy: f64, dissipation: f64) -> bool {
+        let scale = energy.abs().max(PART_OF_LOSS * (self.initial_energy - energy));
+        let (last_time, last_dissipation) = self.last;
+        self.last = (time, dissipation);
+        // Nothing that double precision can see will happen before the end.
+        if dissipation * self.end <= ROUNDING * scale {
+            return true;
+        }
+        let rate = 0.5 * (last_dissipation / dissipation).ln() / (time - last_time);
+        let remaining = if rate > 0.0 { dissipation * time.max(0.5 / rate) } else { f64::INFINITY };
+        let bound = self.tolerance * scale;
+        // Rounding and the error of the implicit solves make the dissipation flicker once it is low.
+        let quiet = remaining <= bound || (self.quiet_since.is_some() && dissipation * time <= bound);
+        if !quiet {
+            self.quiet_since = None;
+            self.quiet_steps = 0;
+            return false;
+        }
+        self.quiet_steps += 1;
+        let since = *self.quiet_since.get_or_insert(time);
+        self.quiet_steps >= STEPS && time >= 2.0 * since
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// D = 2λE e^{−2λt}, E∞ = 1.
+    fn stops_at(rate: f64, end: f64) -> Option<f64> {
+        let energy = |t: f64| 1.0 + (-2.0 * rate * t).exp();
+        let dissipation = |t: f64| 2.0 * rate * (-2.0 * rate * t).exp();
+        let mut watch = Equilibrium::new(1e-7, energy(0.0), dissipation(0.0), end);
+        let mut time = 1e-9;
+        while time < end {
+            time *= 1.05;
+            if watch.reached(time, energy(time), dissipation(time)) {
+                return Some(time);
+            }
+        }
+        None
+    }
+
+    #[test]
+    fn an_exponential_decay_is_at_rest_after_it_has_decayed() {
+        for rate in [0.1, 1.0, 30.0] {
+            let time = stops_at(rate, 1e4).unwrap();
+            assert!((-2.0 * rate * time).exp() < 1e-7 && time < 40.0 / rate, "rate {rate}: stops at {time}");
+        }
+    }
+
+    #[test]
+    fn a_slow_flow_is_not_at_rest_at_the_start() {
+        assert_eq!(stops_at(1e-3, 1e2), None);
+    }
+
+    #[test]
+    fn a_state_without_forces_is_at_rest_at_once() {
+        let mut watch = Equilibrium::new(1e-7, 1.0, 0.0, 10.0);
+        assert!(watch.reached(1e-6, 1.0, 1e-30));
+    }
+}

@@ -1,0 +1,65 @@
+//! Makes the frames of a record from states.
+
+use super::membrane::{ANGLE, CENTRE, DISSIPATED, Membrane};
+use super::record::Frame;
+use crate::geometry::{StateRef, enclosed_area};
+use crate::integrator::{INTEGRALS, Problem};
+
+/// Evaluates all that a frame holds. The state is closed in place.
+///
+/// `integrals` are those carried along, less their start values; `start` holds the energy and the placement at
+/// time 0.
+pub fn frame(
+    membrane: &mut Membrane,
+    time: f64,
+    y: &mut [f64],
+    integrals: [f64; INTEGRALS],
+    start: &Start,
+    closure_defect: Option<f64>,
+) -> Frame {
+    let angle = start.angle + integrals[ANGLE];
+    // An interpolated state is closed to the tolerance; the projection takes the rest.
+    membrane.finish(time, y);
+    let closure_defect = closure_defect.unwrap_or_else(|| membrane.closure_defect());
+    let layout = membrane.flow().layout();
+    let rate = membrane.flow().dissipation_at(y);
+    let normal_velocity = membrane.flow().normal_velocity().to_vec();
+    let energy_terms = membrane.flow().energies_by_term(y);
+    let state = StateRef::new(layout, y);
+    let length = state.length();
+    let mut centre = start.centre;
+    for (centre, moved) in centre.iter_mut().zip(&integrals[CENTRE]) {
+        *centre += moved;
+    }
+    let embedding = membrane.closure().embedding();
+    embedding.set_tangent(state.turning_per_parameter(), length, angle);
+    embedding.set_position(length, centre);
+    let position = embedding.position();
+    Frame {
+        time,
+        energy: rate.energy,
+        energy_terms,
+        dissipation: rate.dissipation,
+        energy_balance: rate.energy - start.energy + integrals[DISSIPATED],
+        length,
+        area: enclosed_area(position, embedding.tangent(), length),
+        mass: (0..layout.densities()).map(|density| state.mass(density)).collect(),
+        closure_defect,
+        curvature: state.pointwise(0),
+        metric: vec![length; layout.nodes()],
+        position: position[0].iter().zip(position[1]).map(|(x, y)| [*x, *y]).collect(),
+        normal_velocity,
+        density: (1..layout.fields()).map(|field| state.pointwise(field)).collect(),
+    }
+}
+
+/// What the integrals start from.
+#[derive(Clone, Copy, Debug)]
+pub struct Start {
+    /// Energy at time 0.
+    pub energy: f64,
+    /// Mean tangent angle at time 0.
+    pub angle: f64,
+    /// Mean position at time 0.
+    pub centre: [f64; 2],
+}

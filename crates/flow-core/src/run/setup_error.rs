@@ -1,0 +1,50 @@
+//! Why a scene that reads well makes no initial state.
+
+use crate::expression::ExpressionError;
+use crate::geometry::shapes::ShapeError;
+
+/// The curve, the densities or the energy of a scene cannot be used together.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+#[allow(missing_docs)] // each message names its fields
+pub enum SetupError {
+    /// The curve is not usable.
+    #[error("`curve`: {0}")]
+    Curve(#[from] ShapeError),
+    /// The curve turns another number of times.
+    #[error(
+        "`curve.turning_number` = {expected}, but the tangent of the curve turns {found} times; set \
+         turning_number = {found} if this is meant, or check the formulas"
+    )]
+    TurningNumber { found: i32, expected: i32 },
+    /// The nodes do not resolve the curve.
+    #[error(
+        "`accuracy.nodes` = {nodes} is too few for this curve: sampled there, its ends are {gap:.3e} apart, and \
+         at most {bound:.3e} (1 % of its length) is closed silently; try nodes = {} or \"auto\"", 2 * .nodes
+    )]
+    TooFewNodes { nodes: usize, gap: f64, bound: f64 },
+    /// The automatic choice found no number of nodes.
+    #[error(
+        "`accuracy.nodes` = \"auto\": the scene needs about {needed} nodes, and at most {most} are allowed; make \
+         epsilon or delta larger, smooth the curve, or set a number of nodes"
+    )]
+    TooManyNodes { needed: f64, most: usize },
+    /// A density is NaN or infinite.
+    #[error(
+        "`density.{density}.initial` is {value} at node {node} (s = {parameter:.6}): it must be finite for all s \
+         in [0, 1); check the expression for divisions by zero, logarithms and roots"
+    )]
+    DensityNotFinite { density: String, node: usize, parameter: f64, value: f64 },
+    /// A derivative of an expression is too large.
+    #[error("`{key}`: {source}")]
+    Expression { key: &'static str, source: ExpressionError },
+    /// The energy or its gradient is NaN or infinite on the initial data.
+    #[error(
+        "the energy term `{term}` is not finite on the initial data: its value is {value}; check its expressions on \
+         the range κ = {low:.4} … {high:.4} of the initial curvature and on the initial densities"
+    )]
+    EnergyNotFinite { term: String, value: f64, low: f64, high: f64 },
+    /// A term refuses the initial data.
+    #[error("{0}")]
+    Term(#[from] crate::energies::TermFault),
+}

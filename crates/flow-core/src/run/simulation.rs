@@ -1,0 +1,249 @@
+//! Runs a scene: steps, frames, stop.
+
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+use super::equilibrium::Equilibrium;
+use super::frames::{Start, frame};
+use super::membrane::Membrane;
+use super::observer::{Observer, Progress};
+use super::record::{Frame, Record, StepLog, StopReason};
+use super::scene::Scene;
+use super::schedule::frame_times;
+use super::setup::Setup;
+use super::setup_error::SetupError;
+use crate::geometry::StateRef;
+use crate::integrator::{
+    Adaptive, AdaptiveOptions, Bdf, Counters, Finish, INTEGRALS, Problem, StepReport, Stepper,
+};
+
+/// A scene under way.
+#[derive(Debug)]
+pub struct Simulation {
+    membrane: Membrane,
+    integration: Adaptive<Bdf>,
+    start: Start,
+    end: f64,
+    equilibrium: Option<Equilibrium>,
+    frame_times: std::vec::IntoIter<f64>,
+    next_frame: Option<f64>,
+    scratch: Vec<f64>,
+    /// Gap of the last accepted state before its projection.
+    closure_defect: f64,
+    record: Record,
+    stopped: Option<StopReason>,
+}
+
+/// Runs `scene` to its end and returns its record.
+///
+/// A run that fails on the way returns its record up to the last good state, with
+/// [`StopReason::Failed`].
+/// # Errors
+/// [`SetupError`] if the scene makes no initial state.
+pub fn run(scene: &Scene, observer: &mut dyn Observer) -> Result<Record, SetupError> {
+    let mut simulation = Simulation::new(scene)?;
+    while simulation.step(observer) {}
+    Ok(simulation.into_record())
+}
+
+impl Simulation {
+    /// Builds what the scene names; saves the initial frame.
+    ///
+    /// # Errors
+    /// [`SetupError`] if the scene makes no initial state.
+    pub fn new(scene: &Scene) -> Result<Self, SetupError> {
+        let Setup { mut membrane, mut state, placement, closure_defect } = Setup::new(scene)?;
+        let finish = membrane.finish(0.0, &mut state);
+        let Finish::Good { energy, dissipation, integral_rates } = finish else {
+            return Err(not_finite(&mut membrane, &state));
+        };
+        if let Some(fault) = membrane.flow().fault() {
+            return Err(fault.into());
+        }
+        let start = Start { energy, angle: placement.angle, centre: placement.centre };
+        let first = frame(&mut membrane, 0.0, &mut state, [0.0; INTEGRALS], &start, Some(closure_defect));
+        let mut counters = Counters::default();
+        let clock = Instant::now();
+        let stepper =
+            Bdf::new(&mut membrane, &state, integral_rates, scene.accuracy.tolerance, &mut counters);
+        counters.integration_seconds = clock.elapsed().as_secs_f64();
+        let end = scene.time.end;
+        let options = AdaptiveOptions { end, most_steps: scene.time.max_steps.unwrap_or(u64::MAX) };
+        let rest = scene.time.equilibrium_tolerance.unwrap_or(0.01 * scene.accuracy.tolerance);
+        let mut frame_times = frame_times(&scene.output, end).into_iter();
+        let record = Record {
+            title: scene.title.clone(),
+            scene: scene.text().to_owned(),
+            resolved_scene: scene.resolved(membrane.flow().layout().nodes()),
+            energy_terms: membrane.flow().energy_terms().names().map(str::to_owned).collect(),
+            densities: scene.density.iter().map(|density| density.name.clone()).collect(),
+            frames: vec![first],
+            steps: StepLog::default(),
+            counters,
+            stop_reason: StopReason::EndTime,
+        };
+        Ok(Self {
+            equilibrium: scene
+                .time
+                .stop_at_equilibrium
+                .then(|| Equilibrium::new(rest, energy, dissipation, end)),
+            integration: Adaptive::new(stepper, options, energy, counters),
+            start,
+            end,
+            next_frame: frame_times.next(),
+            frame_times,
+            scratch: state,
+            closure_defect,
+            membrane,
+            record,
+            stopped: None,
+        })
+    }
+
+    /// Takes one accepted step, saves the frames that fall into it and tells `observer`.
+    /// Returns whether there is more to do.
+    pub fn step(&mut self, observer: &mut dyn Observer) -> bool {
+        if self.stopped.is_some() {
+            return false;
+        }
+        let clock = Instant::now();
+        let report = self.integration.step(&mut self.membrane);
+        let fault = self.membrane.flow().fault();
+        self.record.counters.integration_seconds += clock.elapsed().as_secs_f64();
+        match (report, fault) {
+            (Err(error), _) => self.stop(StopReason::Failed(error.to_string())),
+            (Ok(report), fault) => {
+                self.closure_defect = self.membrane.closure_defect();
+                self.log(&report);
+                self.save_frames();
+                if let Some(fault) = fault {
+                    let message = format!("at t = {:.6e}: {fault}", report.time);
+                    self.stop(StopReason::Failed(message));
+                } else if self.tell(&report, observer).is_break() {
+                    self.stop(StopReason::Interrupted);
+                } else if self.at_rest(&report) {
+                    self.stop(StopReason::Equilibrium);
+                } else if report.time >= self.end {
+                    self.stop(StopReason::EndTime);
+                }
+            }
+        }
+        self.stopped.is_none()
+    }
+
+    fn at_rest(&mut self, report: &StepReport) -> bool {
+        self.equilibrium
+            .as_mut()
+            .is_some_and(|watch| watch.reached(report.time, report.energy, report.dissipation))
+    }
+
+    fn tell(&self, report: &StepReport, observer: &mut dyn Observer) -> ControlFlow<()> {
+        observer.after_step(&Progress {
+            time: report.time,
+            end: self.end,
+            steps: self.integration.counters().steps,
+            step_size: report.size,
+            energy: report.energy,
+            dissipation: report.dissipation,
+            length: self.state().length(),
+        })
+    }
+
+    fn log(&mut self, report: &StepReport) {
+        let steps = &mut self.record.steps;
+        steps.time.push(report.time);
+        steps.size.push(report.size);
+        steps.energy.push(report.energy);
+        steps.dissipation.push(report.dissipation);
+        steps.order.push(report.order as u8);
+        steps.rejections.push(report.rejections);
+    }
+
+    fn save_frames(&mut self) {
+        let stepper = self.integration.stepper();
+        let now = stepper.time();
+        while let Some(time) = self.next_frame.filter(|time| *time < now) {
+            let integrals = self.integration.stepper().interpolate(time, &mut self.scratch);
+            self.record.frames.push(frame(
+                &mut self.membrane,
+                time,
+                &mut self.scratch,
+                integrals,
+                &self.start,
+                None,
+            ));
+            self.next_frame = self.frame_times.next();
+        }
+    }
+
+    fn stop(&mut self, reason: StopReason) {
+        let time = self.integration.stepper().time();
+        if self.record.frames.last().is_some_and(|last| last.time < time) {
+            self.scratch.copy_from_slice(self.integration.stepper().state());
+            let integrals = self.integration.integrals();
+            self.record.frames.push(frame(
+                &mut self.membrane,
+                time,
+                &mut self.scratch,
+                integrals,
+                &self.start,
+                Some(self.closure_defect),
+            ));
+        }
+        self.record.counters = Counters {
+            integration_seconds: self.record.counters.integration_seconds,
+            ..*self.integration.counters()
+        };
+        self.record.stop_reason = reason.clone();
+        self.stopped = Some(reason);
+    }
+
+    /// The last accepted state.
+    #[must_use]
+    pub fn state(&self) -> StateRef<'_> {
+        StateRef::new(self.membrane.layout(), self.integration.stepper().state())
+    }
+
+    /// Time of the last accepted state.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.integration.stepper().time()
+    }
+
+    /// Work so far.
+    #[must_use]
+    pub fn counters(&self) -> &Counters {
+        self.integration.counters()
+    }
+
+    /// The initial frame and those saved since.
+    #[must_use]
+    pub fn frames(&self) -> &[Frame] {
+        &self.record.frames
+    }
+
+    /// Ends the run where it stands, if it has not ended, and returns its record.
+    #[must_use]
+    pub fn into_record(mut self) -> Record {
+        if self.stopped.is_none() {
+            self.stop(StopReason::Interrupted);
+        }
+        self.record
+    }
+}
+
+/// Names the term that is not finite on the initial data.
+#[cold]
+fn not_finite(membrane: &mut Membrane, state: &[f64]) -> SetupError {
+    let layout = membrane.flow().layout();
+    let values = membrane.flow().energies_by_term(state);
+    let names: Vec<_> = membrane.flow().energy_terms().names().collect();
+    let culprit = values.iter().position(|value| !value.is_finite()).unwrap_or_default();
+    let curvature = StateRef::new(layout, state).pointwise(0);
+    SetupError::EnergyNotFinite {
+        term: names.get(culprit).copied().unwrap_or_default().to_owned(),
+        value: values.get(culprit).copied().unwrap_or(f64::NAN),
+        low: curvature.iter().copied().fold(f64::INFINITY, f64::min),
+        high: curvature.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+    }
+}
