@@ -14,6 +14,7 @@ pub use bdf::Bdf;
 pub use error_norm::ErrorNorm;
 pub use gmres::Gmres;
 pub use history::History;
+pub use integrals::Integrals;
 pub use newton::{NewtonKrylov, NewtonOutcome};
 pub use statistics::{Counters, Rejections};
 

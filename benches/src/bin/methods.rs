@@ -1,0 +1,97 @@
+//! Measures every method with every linear solver, and writes the tables of `benches/README.md`.
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use curveflow_benches::measure::{Case, Method, Outcome, SIZES, costs};
+use curveflow_benches::report::{case_head, case_line, costs_table, replace_tables};
+
+/// Seconds after which a run is given up.
+const LIMIT: f64 = 20.0;
+const REFERENCE_LIMIT: f64 = 300.0;
+const REFERENCE_TOLERANCE: f64 = 1e-10;
+const TOLERANCES: [f64; 3] = [1e-3, 1e-5, 1e-7];
+/// Runs shorter than this are measured three times.
+const SHORT: f64 = 1.0;
+
+/// A case, the times at which errors are measured (the last is the end), and its linear solvers.
+struct Plan {
+    case: Case,
+    times: &'static [f64],
+    solvers: &'static [&'static str],
+}
+
+const KRYLOV: &[&str] = &["fourier", "banded", "auto"];
+const PLANS: [Plan; 4] = [
+    Plan { case: Case { scene: "length_penalty", nodes: 256 }, times: &[0.01], solvers: KRYLOV },
+    Plan {
+        case: Case { scene: "length_penalty", nodes: 64 },
+        times: &[0.01],
+        solvers: &["fourier", "banded", "auto", "dense"],
+    },
+    Plan { case: Case { scene: "three_fold", nodes: 512 }, times: &[0.1, 100.0], solvers: KRYLOV },
+    Plan { case: Case { scene: "three_fold_sharp", nodes: 1024 }, times: &[0.1, 100.0], solvers: KRYLOV },
+];
+
+fn main() -> ExitCode {
+    let mut tables = String::new();
+    for plan in &PLANS {
+        tables.push_str(&measure(plan));
+    }
+    tables.push_str(&costs_table(&SIZES.map(costs)));
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    let written = std::fs::read_to_string(&path).and_then(|document| {
+        let document = replace_tables(&document, &tables)
+            .ok_or_else(|| std::io::Error::other("the markers of the tables are missing"))?;
+        std::fs::write(&path, document)
+    });
+    match written {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{}: {error}", path.display());
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// All runs of one case as a table, which is printed while it grows.
+fn measure(plan: &Plan) -> String {
+    let references: Vec<Outcome> = plan
+        .times
+        .iter()
+        .map(|end| Method::Bdf.run(plan.case, "auto", REFERENCE_TOLERANCE, *end, REFERENCE_LIMIT))
+        .collect();
+    let mut text = case_head(plan.case, plan.times);
+    print!("{text}");
+    for method in Method::ALL {
+        let solvers = if method.is_implicit() { plan.solvers } else { &["auto"] };
+        for solver in solvers {
+            for tolerance in TOLERANCES {
+                let line = line(plan, &references, method, solver, tolerance);
+                print!("{line}");
+                text.push_str(&line);
+            }
+        }
+    }
+    text
+}
+
+fn line(plan: &Plan, references: &[Outcome], method: Method, solver: &str, tolerance: f64) -> String {
+    let run = |end| method.run(plan.case, solver, tolerance, end, LIMIT);
+    let mut runs: Vec<Outcome> = plan.times.iter().map(|end| run(*end)).collect();
+    let errors = runs
+        .iter()
+        .zip(references)
+        .map(|(run, reference)| match (run.unfinished, reference.unfinished) {
+            (None, None) => run.errors(&reference.state, plan.case.nodes),
+            _ => [f64::NAN; 2],
+        })
+        .collect();
+    let Some(mut last) = runs.pop() else { return String::new() };
+    if let Some(end) = plan.times.last().filter(|_| last.unfinished.is_none() && last.seconds < SHORT) {
+        let mut seconds = [last.seconds, run(*end).seconds, run(*end).seconds];
+        seconds.sort_by(f64::total_cmp);
+        last.seconds = seconds[1];
+    }
+    case_line(method, solver, tolerance, &last, &errors)
+}

@@ -1,0 +1,11 @@
+//! Runs of scenes by each method, and times of their parts.
+
+mod case;
+mod costs;
+mod method;
+mod outcome;
+
+pub use case::Case;
+pub use costs::{Costs, SIZES, costs, exponent};
+pub use method::Method;
+pub use outcome::{Outcome, Unfinished};

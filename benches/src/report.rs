@@ -1,0 +1,130 @@
+//! The tables as Markdown, and their place in `benches/README.md`.
+
+use std::fmt::Write;
+
+use crate::measure::{Case, Costs, Method, Outcome, SIZES, Unfinished, exponent};
+
+/// Errors of curvature and length, at an early time if there is one, and at the end.
+pub type Errors = Vec<[f64; 2]>;
+
+/// Head of the table of one case; errors are given at `times`.
+#[must_use]
+pub fn case_head(case: Case, times: &[f64]) -> String {
+    let last = times.last().copied().unwrap_or_default();
+    let mut text = format!("\n### {}, N = {}, to t = {last}\n\n", case.scene, case.nodes);
+    text.push_str(
+        "| method | linear solver | tolerance | ms | steps | right-hand sides | Krylov | factorisations \
+         | rejected: error, solver, energy |",
+    );
+    for time in times {
+        let _ = write!(text, " κ, L error at t = {time} |");
+    }
+    text.push('\n');
+    text.push_str(&"| --- ".repeat(3));
+    text.push_str(&"| ---: ".repeat(6));
+    text.push_str(&"| --- ".repeat(times.len()));
+    text.push_str("|\n");
+    text
+}
+
+/// One run as a line.
+#[must_use]
+pub fn case_line(method: Method, solver: &str, tolerance: f64, run: &Outcome, errors: &Errors) -> String {
+    let solver = if method.is_implicit() { solver } else { "–" };
+    let counters = &run.counters;
+    let rejections = counters.rejections;
+    let time = match run.unfinished {
+        None => milliseconds(run.seconds),
+        Some(Unfinished::TimeLimit) => format!("– (t = {:.1e} after {:.0} s)", run.time, run.seconds),
+        Some(Unfinished::Failed) => format!("failed at t = {:.1e}", run.time),
+    };
+    let mut line = format!(
+        "| {} | {solver} | {tolerance:.0e} | {time} | {} | {} | {} | {} | {}, {}, {} |",
+        method.name(),
+        counters.steps,
+        counters.right_hand_sides,
+        counters.krylov_iterations,
+        counters.factorisations,
+        rejections.error,
+        rejections.solver + rejections.not_finite,
+        rejections.energy_rise
+    );
+    for [curvature, length] in errors {
+        let _ = write!(line, " {}, {} |", short(*curvature), short(*length));
+    }
+    line.push('\n');
+    line
+}
+
+fn short(error: f64) -> String {
+    if error.is_finite() { format!("{error:.0e}") } else { "–".to_owned() }
+}
+
+fn milliseconds(seconds: f64) -> String {
+    let ms = 1e3 * seconds;
+    if ms < 10.0 { format!("{ms:.2}") } else { format!("{ms:.0}") }
+}
+
+/// The table of the costs of the parts.
+#[must_use]
+pub fn costs_table(costs: &[Costs]) -> String {
+    let mut text = format!(
+        "\n### Parts of a step, three_fold with N = {} … {}\n\nMicroseconds. Power: fitted power of N.\n\n| |",
+        SIZES[0],
+        SIZES[SIZES.len() - 1]
+    );
+    for cost in costs {
+        let _ = write!(text, " {} |", cost.nodes);
+    }
+    text.push_str(" power |\n| --- ");
+    text.push_str(&"| ---: ".repeat(costs.len() + 1));
+    text.push_str("|\n");
+    let rows: [(&str, fn(&Costs) -> f64); 8] = [
+        ("right-hand side", |c| c.rate),
+        ("linearisation", |c| c.linearisation),
+        ("J·v", |c| c.product),
+        ("solve, Fourier", |c| c.solve[0]),
+        ("solve, banded", |c| c.solve[1]),
+        ("factorisation, Fourier", |c| c.factorisation[0]),
+        ("factorisation, banded", |c| c.factorisation[1]),
+        ("step of BDF, auto, tolerance 1e-5, to t = 0.1", |c| c.step),
+    ];
+    for (name, part) in rows {
+        let _ = write!(text, "| {name} |");
+        for cost in costs {
+            let _ = write!(text, " {:.1} |", 1e6 * part(cost));
+        }
+        let pairs: Vec<_> = costs.iter().map(|cost| (cost.nodes as f64, part(cost))).collect();
+        let _ = writeln!(text, " {:.2} |", exponent(&pairs));
+    }
+    text.push_str("| steps (Krylov iterations per step) |");
+    for cost in costs {
+        let _ = write!(text, " {} ({:.1}) |", cost.steps, cost.krylov_per_step);
+    }
+    text.push_str(" |\n");
+    text
+}
+
+const BEGIN: &str = "<!-- tables: begin -->";
+const END: &str = "<!-- tables: end -->";
+
+/// `document` with the text between its markers replaced by `tables`; none if it has no markers.
+#[must_use]
+pub fn replace_tables(document: &str, tables: &str) -> Option<String> {
+    let begin = document.find(BEGIN)? + BEGIN.len();
+    let end = document.find(END).filter(|end| *end >= begin)?;
+    Some(format!("{}\n{tables}\n{}", &document[..begin], &document[end..]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_go_between_the_markers() {
+        let document = format!("a\n{BEGIN}\nold\n{END}\nb\n");
+        let replaced = replace_tables(&document, "new").unwrap();
+        assert_eq!(replaced, format!("a\n{BEGIN}\nnew\n{END}\nb\n"));
+        assert_eq!(replace_tables("no markers", "new"), None);
+    }
+}
