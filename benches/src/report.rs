@@ -35,7 +35,7 @@ pub fn case_line(method: Method, solver: &str, tolerance: f64, run: &Outcome, er
     let rejections = counters.rejections;
     let time = match run.unfinished {
         None => milliseconds(run.seconds),
-        Some(Unfinished::TimeLimit) => format!("– (t = {:.1e} after {:.0} s)", run.time, run.seconds),
+        Some(Unfinished::TimeLimit) => format!("– (t = {:.1e})", run.time),
         Some(Unfinished::Failed) => format!("failed at t = {:.1e}", run.time),
     };
     let mut line = format!(

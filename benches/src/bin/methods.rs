@@ -7,12 +7,14 @@ use curveflow_benches::measure::{Case, Method, Outcome, SIZES, costs};
 use curveflow_benches::report::{case_head, case_line, costs_table, replace_tables};
 
 /// Seconds after which a run is given up.
-const LIMIT: f64 = 20.0;
+const LIMIT: f64 = 12.0;
 const REFERENCE_LIMIT: f64 = 300.0;
 const REFERENCE_TOLERANCE: f64 = 1e-10;
 const TOLERANCES: [f64; 3] = [1e-3, 1e-5, 1e-7];
-/// Runs shorter than this are measured three times.
-const SHORT: f64 = 1.0;
+/// Short runs are repeated until they add up to so many seconds, the resolution of the clock being a few
+/// milliseconds.
+const REPEATED: f64 = 0.2;
+const MOST_REPEATS: f64 = 200.0;
 
 /// A case, the times at which errors are measured (the last is the end), and its linear solvers.
 struct Plan {
@@ -78,20 +80,28 @@ fn measure(plan: &Plan) -> String {
 
 fn line(plan: &Plan, references: &[Outcome], method: Method, solver: &str, tolerance: f64) -> String {
     let run = |end| method.run(plan.case, solver, tolerance, end, LIMIT);
-    let mut runs: Vec<Outcome> = plan.times.iter().map(|end| run(*end)).collect();
-    let errors = runs
-        .iter()
-        .zip(references)
-        .map(|(run, reference)| match (run.unfinished, reference.unfinished) {
-            (None, None) => run.errors(&reference.state, plan.case.nodes),
-            _ => [f64::NAN; 2],
-        })
-        .collect();
-    let Some(mut last) = runs.pop() else { return String::new() };
-    if let Some(end) = plan.times.last().filter(|_| last.unfinished.is_none() && last.seconds < SHORT) {
-        let mut seconds = [last.seconds, run(*end).seconds, run(*end).seconds];
-        seconds.sort_by(f64::total_cmp);
-        last.seconds = seconds[1];
+    let mut runs: Vec<Outcome> = Vec::new();
+    for end in plan.times {
+        // What did not reach the early time will not reach the end.
+        if runs.iter().all(|run| run.unfinished.is_none()) {
+            runs.push(run(*end));
+        }
+    }
+    let error = |index: usize| match (runs.get(index), &references[index]) {
+        (Some(run), reference) if run.unfinished.is_none() && reference.unfinished.is_none() => {
+            run.errors(&reference.state, plan.case.nodes)
+        }
+        _ => [f64::NAN; 2],
+    };
+    let errors = (0..plan.times.len()).map(error).collect();
+    let (Some(mut last), Some(end)) = (runs.pop(), plan.times.last()) else { return String::new() };
+    if last.unfinished.is_none() {
+        let (mut total, mut count) = (last.seconds, 1.0);
+        while total < REPEATED && count < MOST_REPEATS {
+            total += run(*end).seconds;
+            count += 1.0;
+        }
+        last.seconds = total / count;
     }
     case_line(method, solver, tolerance, &last, &errors)
 }

@@ -17,8 +17,8 @@ const END: f64 = 0.1;
 const LIMIT: f64 = 60.0;
 const GAMMA: f64 = 1e-4;
 /// Each time is the least of these many batches of at least so many seconds.
-const BATCHES: usize = 5;
-const BATCH_SECONDS: f64 = 0.01;
+const BATCHES: usize = 20;
+const BATCH_SECONDS: f64 = 0.002;
 
 /// Times in seconds on one number of nodes.
 #[derive(Clone, Copy, Debug)]

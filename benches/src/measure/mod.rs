@@ -1,6 +1,7 @@
 //! Runs of scenes by each method, and times of their parts.
 
 mod case;
+mod clock;
 mod costs;
 mod method;
 mod outcome;

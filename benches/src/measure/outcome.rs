@@ -1,8 +1,8 @@
 //! One run: the step loop under a clock, and what it leaves.
 
-use std::time::Instant;
-
 use flow_core::integrator::{Adaptive, AdaptiveOptions, Counters, Problem, Stepper};
+
+use super::clock::Clock;
 
 /// Why a run did not reach its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,7 +16,7 @@ pub enum Unfinished {
 /// What a run leaves.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// Seconds of integration.
+    /// Seconds of integration, of processor time where the system tells it.
     pub seconds: f64,
     /// Work.
     pub counters: Counters,
@@ -42,7 +42,7 @@ pub(super) fn drive<P: Problem, S: Stepper>(
     goal: Goal,
     build: impl FnOnce(&mut P, &mut Counters) -> S,
 ) -> Outcome {
-    let clock = Instant::now();
+    let clock = Clock::start();
     let mut counters = Counters::default();
     let stepper = build(problem, &mut counters);
     let options = AdaptiveOptions { end: goal.end, most_steps: u64::MAX };
@@ -51,12 +51,12 @@ pub(super) fn drive<P: Problem, S: Stepper>(
     while integration.stepper().time() < goal.end && unfinished.is_none() {
         if integration.step(problem).is_err() {
             unfinished = Some(Unfinished::Failed);
-        } else if clock.elapsed().as_secs_f64() > goal.limit {
+        } else if clock.wall() > goal.limit {
             unfinished = Some(Unfinished::TimeLimit);
         }
     }
     Outcome {
-        seconds: clock.elapsed().as_secs_f64(),
+        seconds: clock.seconds(),
         counters: *integration.counters(),
         state: integration.stepper().state().to_vec(),
         time: integration.stepper().time(),
