@@ -16,7 +16,7 @@ end = 1.0
 nodes = 16
 linear_solver = 'dense'
 ";
-const END: f64 = 0.05;
+const END: f64 = 0.02;
 
 fn setup() -> (Shared, Vec<f64>, Finish) {
     let Setup { mut membrane, mut state, .. } = Setup::new(&Scene::parse(SCENE, "ellipse").unwrap()).unwrap();

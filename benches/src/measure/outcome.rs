@@ -68,15 +68,19 @@ impl Outcome {
     /// Relative L² difference of the curvature and relative difference of the length from `reference`.
     ///
     /// # Shapes
-    /// Both states have `nodes` values per field and the length as their last entry.
+    /// Both states are spectral, on `nodes` nodes.
     #[must_use]
     pub fn errors(&self, reference: &[f64], nodes: usize) -> [f64; 2] {
         let length = self.state[self.state.len() - 1];
         let exact_length = reference[reference.len() - 1];
+        let entries = 2 * (nodes / 2 + 1);
         let (mut difference, mut size) = (0.0, 0.0);
-        for (turning, exact) in self.state[..nodes].iter().zip(&reference[..nodes]) {
-            difference += (turning / length - exact / exact_length).powi(2);
-            size += (exact / exact_length).powi(2);
+        for (entry, (turning, exact)) in self.state[..entries].iter().zip(reference).enumerate() {
+            // The mean and the sawtooth stand once in the full spectrum, the others twice.
+            let mode = entry / 2;
+            let multiplicity = if mode == 0 || 2 * mode == nodes { 1.0 } else { 2.0 };
+            difference += multiplicity * (turning / length - exact / exact_length).powi(2);
+            size += multiplicity * (exact / exact_length).powi(2);
         }
         [(difference / size).sqrt(), (length / exact_length - 1.0).abs()]
     }

@@ -89,18 +89,12 @@ impl Symbol {
 /// out += factor × function(spectra), mode by mode.
 pub fn add_function(
     function: &[f64],
-    fields: usize,
+    modes: usize,
     factor: f64,
     spectra: &[Complex64],
     out: &mut [Complex64],
 ) {
-    let modes = spectra.len() / fields;
-    if fields == 1 {
-        for ((out, value), weight) in out.iter_mut().zip(spectra).zip(function) {
-            *out += value * (factor * weight);
-        }
-        return;
-    }
+    let fields = spectra.len() / modes;
     for (mode, block) in function.chunks_exact(fields * fields).enumerate() {
         for a in 0..fields {
             for b in 0..fields {
