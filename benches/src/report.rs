@@ -65,6 +65,9 @@ fn milliseconds(seconds: f64) -> String {
     if ms < 10.0 { format!("{ms:.2}") } else { format!("{ms:.0}") }
 }
 
+/// A row's name, and what it shows.
+type Row = (&'static str, fn(&Costs) -> f64);
+
 /// The table of the costs of the parts.
 #[must_use]
 pub fn costs_table(costs: &[Costs]) -> String {
@@ -79,7 +82,7 @@ pub fn costs_table(costs: &[Costs]) -> String {
     text.push_str(" power |\n| --- ");
     text.push_str(&"| ---: ".repeat(costs.len() + 1));
     text.push_str("|\n");
-    let rows: [(&str, fn(&Costs) -> f64); 8] = [
+    let rows: [Row; 8] = [
         ("right-hand side", |c| c.rate),
         ("linearisation", |c| c.linearisation),
         ("J·v", |c| c.product),

@@ -51,7 +51,7 @@ pub(super) fn drive<P: Problem, S: Stepper>(
     while integration.stepper().time() < goal.end && unfinished.is_none() {
         if integration.step(problem).is_err() {
             unfinished = Some(Unfinished::Failed);
-        } else if clock.wall() > goal.limit {
+        } else if clock.wall() > goal.limit && clock.seconds() > goal.limit {
             unfinished = Some(Unfinished::TimeLimit);
         }
     }

@@ -101,7 +101,7 @@ impl Etdrk4 {
         };
     }
 
-    /// Stage `stage` = half(from) + half_rate(Σ factor × rate).
+    /// Stage `stage` = `half` of `from` + `half_rate` of Σ factor × rate.
     fn stage(&mut self, stage: usize, from: &[f64], terms: &[(f64, usize)]) {
         let out = &mut self.stages[stage];
         out.fill(0.0);

@@ -93,7 +93,9 @@ impl Rosenbrock {
         }
         problem.rate(&self.stage, u);
         counters.right_hand_sides += 1;
-        u.iter_mut().for_each(|rate| *rate *= gamma);
+        for rate in u.iter_mut() {
+            *rate *= gamma;
+        }
         for (j, known) in self.stages[..index].iter().enumerate() {
             add_scaled(u, self.tableau.gamma * self.c[(index, j)], known);
         }

@@ -1,5 +1,7 @@
 //! Coefficients of the one-step methods, as data; `tests/order_conditions.rs` checks them.
 
+#![allow(clippy::excessive_precision)] // quoted digit by digit
+
 /// A singly diagonally implicit Runge–Kutta pair with an explicit first stage.
 #[derive(Debug)]
 pub struct EsdirkTableau {
