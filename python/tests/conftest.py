@@ -1,0 +1,36 @@
+import matplotlib
+import pytest
+
+import curveflow as cf
+
+matplotlib.use("Agg")
+
+# Stops after a few steps; the names of the keys are those of every scene.
+CIRCLE = """
+title = "Circle"
+curve = { shape = "circle", radius = 1.0 }
+energy.bending = { rigidity = 1.0 }
+time = { end = 1.0, stop_at_equilibrium = false }
+accuracy = { tolerance = 1e-4, nodes = 32 }
+output.frames = 5
+"""
+
+
+@pytest.fixture
+def circle() -> cf.Scene:
+    return cf.Scene.parse(CIRCLE)
+
+
+@pytest.fixture(scope="session")
+def membrane() -> cf.Result:
+    """The three-fold membrane at its equilibrium."""
+    return cf.run(cf.Scene.shipped("three_fold"))
+
+
+@pytest.fixture
+def endless(circle: cf.Scene) -> cf.Scene:
+    """A scene that runs for minutes, in steps of milliseconds: a tolerance it can only creep along with."""
+    scene = cf.Scene.shipped("three_fold_sharp")
+    return scene.with_values(
+        {"accuracy.tolerance": 1e-9, "time.stop_at_equilibrium": False, "time.end": 1e6}
+    )
