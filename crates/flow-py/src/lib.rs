@@ -3,6 +3,8 @@
 //! It borrows, releases the interpreter lock, maps errors and moves out; the public package with its docstrings is
 //! `python/curveflow`, the types are in `python/curveflow/_curveflow.pyi`.
 
+#![allow(clippy::needless_pass_by_value)] // the arguments of a call from Python arrive by value
+
 mod arrays;
 mod error;
 mod record;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use flow_core::output::{StorageError, hdf5_file};
-use flow_core::run::{self, Frame, Rejections};
+use flow_core::run::{self as core, Frame, Rejections};
 use numpy::PyArray3;
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
@@ -18,7 +18,7 @@ use crate::watcher::Watcher;
 /// A finished or interrupted run.
 #[pyclass(frozen, module = "curveflow._curveflow")]
 pub struct Record {
-    core: run::Record,
+    core: core::Record,
 }
 
 /// Runs `scene`; comes back every few milliseconds for signals, and to call `callback` with the fields of `Progress`
@@ -28,7 +28,7 @@ pub fn run(py: Python<'_>, scene: &Scene, callback: Option<Py<PyAny>>, interval:
     let interval = Duration::try_from_secs_f64(interval)
         .map_err(|error| PyValueError::new_err(format!("interval = {interval}: {error}")))?;
     let mut watcher = Watcher::new(callback, interval);
-    let core = detached(py, || run::run(&scene.core, &mut watcher))?;
+    let core = detached(py, || core::run(&scene.core, &mut watcher))?;
     watcher.raised.map_or(Ok(Record { core }), Err)
 }
 
@@ -196,8 +196,11 @@ impl Record {
     }
 }
 
+/// Reads one count.
+type Count = fn(&Rejections) -> u64;
+
 /// Rejections by cause, named as in the attributes of a result file.
-const CAUSES: [(&str, fn(&Rejections) -> u64); 4] = [
+const CAUSES: [(&str, Count); 4] = [
     ("rejections_error", |rejections| rejections.error),
     ("rejections_solver", |rejections| rejections.solver),
     ("rejections_energy_rise", |rejections| rejections.energy_rise),
