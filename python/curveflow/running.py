@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from . import _curveflow
 from .result import Result
@@ -58,9 +58,9 @@ def run(
         watch = _both(callback, line) if line else callback
     elif line:
         watch, interval = line.show, 0.1
-    native = watch and (lambda *values: watch(Progress(*values)))
+    native = _with_progress(watch) if watch else None
     try:
-        result = Result(_curveflow.run(scene._native, native or None, interval), scene)
+        result = Result(_curveflow.run(scene._native, native, interval), scene)
     except BaseException:
         if line:
             line.end("")
@@ -68,6 +68,13 @@ def run(
     if line:
         line.end(f"{result.message} (t = {result.time[-1]:.6g}, {result.stats['steps']} steps)")
     return result
+
+
+def _with_progress(watch: Callable[[Progress], object]) -> Callable[..., None]:
+    def call(*values: Any) -> None:
+        watch(Progress(*values))
+
+    return call
 
 
 def _both(callback: Callable[[Progress], object], line: _Line) -> Callable[[Progress], object]:
