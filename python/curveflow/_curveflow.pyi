@@ -7,6 +7,8 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
+__all__ = ["Record", "Scene", "read", "run", "shipped"]
+
 @final
 class Scene:
     @staticmethod

@@ -5,7 +5,6 @@ import curveflow as cf
 
 matplotlib.use("Agg")
 
-# Stops after a few steps; the names of the keys are those of every scene.
 CIRCLE = """
 title = "Circle"
 curve = { shape = "circle", radius = 1.0 }
@@ -28,9 +27,7 @@ def membrane() -> cf.Result:
 
 
 @pytest.fixture
-def endless(circle: cf.Scene) -> cf.Scene:
-    """A scene that runs for minutes, in steps of milliseconds: a tolerance it can only creep along with."""
+def endless() -> cf.Scene:
+    """A scene that runs for longer than any test, in short steps."""
     scene = cf.Scene.shipped("three_fold_sharp")
-    return scene.with_values(
-        {"accuracy.tolerance": 1e-9, "time.stop_at_equilibrium": False, "time.end": 1e6}
-    )
+    return scene.with_values({"accuracy.tolerance": 1e-9, "time.stop_at_equilibrium": False, "time.end": 1e6})

@@ -18,9 +18,9 @@ scene = cf.Scene.load(sys.argv[1])
 def started(progress):
     if progress.steps == 1:
         print("started", flush=True)
-result = cf.run(scene, callback=started if sys.argv[2] == "callback" else None, progress=True)
+result = cf.run(scene, callback=started, progress=True)
 assert not result.success
-result.save(sys.argv[3])
+result.save(sys.argv[2])
 print(result.status, flush=True)
 """
 
@@ -84,7 +84,7 @@ def test_a_signal_keeps_the_partial_result(endless: cf.Scene):
 def test_ctrl_c_keeps_the_partial_result(endless: cf.Scene, tmp_path: Path):
     scene, out = tmp_path / "scene.toml", tmp_path / "out.h5"
     scene.write_text(endless.text)
-    command = [sys.executable, "-c", INTERRUPTED, str(scene), "callback", str(out)]
+    command = [sys.executable, "-c", INTERRUPTED, str(scene), str(out)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         assert process.stdout and process.stdout.readline() == "started\n"
         process.send_signal(signal.SIGINT)

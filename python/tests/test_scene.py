@@ -70,7 +70,7 @@ def test_scenes_compare_by_meaning_and_can_be_pickled(circle: cf.Scene):
     assert circle != circle.with_values({"accuracy.nodes": 64})
 
 
-def test_a_scene_that_makes_no_state_is_a_setup_error(circle: cf.Scene):
-    scene = circle.with_values({"curve.turning_number": 2})
-    with pytest.raises(cf.SetupError, match="turning_number"):
+def test_a_scene_that_makes_no_state_is_a_setup_error():
+    scene = cf.Scene.shipped("three_fold").with_values({"density.protein.initial": "ln(s)"})
+    with pytest.raises(cf.SetupError, match=r"density\.protein\.initial.*-inf at node 0"):
         cf.run(scene)
