@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 _BLUE, _GREEN, _PURPLE, _VERMILION = "#0072B2", "#009E73", "#A85088", "#D55E00"
 _INITIAL: dict[str, Any] = {"color": "0.5", "linewidth": 1.2, "linestyle": "--"}
 _MOST_DECADES = 1e-10
+_CONSTANT = 1e-6
 
 
 def plot(result: Result, figure: Figure | None = None) -> Figure:
@@ -46,6 +47,9 @@ def draw_curve(result: Result, axes: Axes, frame: int = -1) -> None:
         list(np.stack([curve[:-1], curve[1:]], axis=1)), linewidths=4, capstyle="round", cmap="viridis"
     )
     lines.set_array(0.5 * (value[:-1] + value[1:]))
+    if np.ptp(value) < _CONSTANT * np.abs(value).max():  # colours would show nothing but rounding
+        margin = 0.01 * np.abs(value).max()
+        lines.set_clim(value.min() - margin, value.max() + margin)
     axes.add_collection(lines)
     axes.set(xlabel="$x$", ylabel="$y$", title=f"$t$ = {result.time[frame]:.4g}")
     axes.set_aspect("equal", adjustable="datalim")
