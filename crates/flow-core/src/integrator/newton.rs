@@ -7,7 +7,7 @@ use super::{Counters, Problem};
 const MOST_ITERATIONS: usize = 4;
 const MOST_KRYLOV: usize = 30;
 /// Linear residuals are reduced to this part of the goal: their square enters the dissipation.
-const KRYLOV_SHARE: f64 = 0.3;
+const KRYLOV_SHARE: f64 = 0.2;
 /// Each linear solve reduces its residual at least by this factor, so that Newton errors fade with the flow.
 const KRYLOV_REDUCTION: f64 = 0.1;
 /// γ may change by this factor before the preconditioner is factorised again.
