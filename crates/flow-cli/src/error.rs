@@ -9,14 +9,13 @@ use flow_core::output::picture::PictureError;
 
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
-#[allow(dead_code)] // the commands that run scenes use the rest
 pub enum CliError {
     /// The arguments do not make sense together.
     #[error("{message}; see `curveflow help`")]
     Usage { message: String },
     /// The scene is not valid.
-    #[error("{}: {source}", .scene.display())]
-    InvalidScene { scene: PathBuf, source: Box<dyn Error + Send + Sync> },
+    #[error("the scene is not valid")]
+    InvalidScene { source: Box<dyn Error + Send + Sync> },
     /// The integration failed; the last good state is in the output.
     #[error("{message}; the last good state is in {}", .output.display())]
     Numerical { message: String, output: PathBuf },
@@ -26,8 +25,11 @@ pub enum CliError {
     /// Standard output is closed or full.
     #[error("cannot write to standard output: {0}; redirect it to a disk with space")]
     Stdout(io::Error),
+    /// The handlers of signals could not be set.
+    #[error("cannot watch for signals: {0}")]
+    Signals(io::Error),
     /// A signal or a limit stopped the run.
-    #[error("stopped at t = {time:.6e}; continue with `curveflow resume {}`", .output.display())]
+    #[error("stopped at t = {time:.6e} by a signal; the run up to there is in {}", .output.display())]
     Stopped { time: f64, output: PathBuf },
     /// The file to be read is not ours, or damaged.
     #[error(transparent)]

@@ -3,6 +3,7 @@
 mod commands;
 mod error;
 mod print;
+mod progress;
 
 use std::error::Error;
 use std::fmt::Write;
@@ -11,7 +12,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use commands::{info, plot};
+use commands::{check, info, plot, run, scenes};
 use error::CliError;
 
 /// Gradient flows of energies of closed planar curves that carry embedded densities.
@@ -24,15 +25,21 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Run(run::Args),
+    Check(check::Args),
     Info(info::Args),
     Plot(plot::Args),
+    Scenes(scenes::Args),
 }
 
 impl Command {
     fn execute(&self) -> Result<(), CliError> {
         match self {
+            Self::Run(args) => run::execute(args),
+            Self::Check(args) => check::execute(args),
             Self::Info(args) => info::execute(args),
             Self::Plot(args) => plot::execute(args),
+            Self::Scenes(args) => scenes::execute(args),
         }
     }
 }
@@ -59,7 +66,7 @@ fn exit_code(error: &CliError) -> u8 {
         CliError::Usage { .. } => 2,
         CliError::InvalidScene { .. } => 3,
         CliError::Numerical { .. } => 4,
-        CliError::Storage(_) | CliError::Stdout(_) => 5,
+        CliError::Storage(_) | CliError::Stdout(_) | CliError::Signals(_) => 5,
         CliError::Stopped { .. } => 6,
         CliError::Unreadable(_) => 7,
     }

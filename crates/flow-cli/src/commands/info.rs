@@ -27,6 +27,11 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     print::data(&if args.json { as_json(rows) } else { as_table(&rows) })
 }
 
+/// The summary of a record as JSON.
+pub fn json(record: &Record) -> String {
+    as_json(summary(record))
+}
+
 /// Key and value of every line, in order.
 fn summary(record: &Record) -> Vec<(String, Value)> {
     let mut rows: Vec<(String, Value)> = Vec::new();

@@ -1,4 +1,8 @@
 //! One file per command: parse, call, print.
 
+pub mod check;
 pub mod info;
 pub mod plot;
+pub mod run;
+mod scene_args;
+pub mod scenes;

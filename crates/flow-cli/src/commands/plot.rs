@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use flow_core::output::atomic_file::check_writable;
 use flow_core::output::{hdf5_file, picture};
+use flow_core::run::nodal_polylines;
 
 use crate::error::CliError;
 use crate::print;
@@ -26,7 +27,9 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     let path = args.output.clone().unwrap_or_else(|| args.out.with_extension("png"));
     check_writable(&path, args.replace)?;
     let record = hdf5_file::read(&args.out)?;
-    let options = picture::Options { replace: args.replace, ..picture::Options::default() };
+    let nodal_lines = nodal_polylines(&record)
+        .map(|[preferred_curvature, low, high]| picture::NodalLines { preferred_curvature, low, high });
+    let options = picture::Options { replace: args.replace, nodal_lines, ..picture::Options::default() };
     picture::plot(&record, &path, &options)?;
     print::data(&path.display().to_string())
 }

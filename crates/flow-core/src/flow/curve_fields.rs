@@ -1,6 +1,6 @@
 //! The fields of one state where the operators need them: at nodes, as spectra, at flux points.
 
-use crate::geometry::{Complex64, Layout, PeriodicGrid, StateRef};
+use crate::geometry::{Complex64, Layout, PeriodicGrid, SpectralLayout};
 use crate::operators::Derivative;
 
 /// Pointwise fields κ, ρ¹, ρ², … of one state.
@@ -32,34 +32,25 @@ impl CurveFields {
         }
     }
 
-    /// Takes the fields from a state vector.
-    pub fn set(&mut self, y: &[f64], grid: &mut PeriodicGrid, derivative: &Derivative) {
-        let state = StateRef::new(self.layout, y);
-        self.length = state.length();
+    /// Takes the fields from a spectral state vector.
+    pub fn set(&mut self, state: &[f64], grid: &mut PeriodicGrid, derivative: &Derivative) {
+        let layout = SpectralLayout::new(self.layout);
+        self.length = state[layout.length_index()];
         let inverse = 1.0 / self.length;
-        for (value, y) in self.pointwise.iter_mut().zip(y) {
-            *value = inverse * y;
+        for (spectrum, value) in self.spectra.iter_mut().zip(layout.spectra(state)) {
+            *spectrum = value * inverse;
         }
         for field in 0..self.layout.fields() {
             let range = self.layout.field(field);
-            let spectrum = &mut self.spectra[field * self.modes..(field + 1) * self.modes];
-            grid.transform(&self.pointwise[range.clone()], spectrum);
+            let spectrum = &self.spectra[field * self.modes..(field + 1) * self.modes];
+            self.scratch.copy_from_slice(spectrum);
+            grid.synthesise(&mut self.scratch, &mut self.pointwise[range.clone()]);
             if let (Some(symbol), Some(values)) = (derivative.interpolation(), &mut self.interpolated) {
-                for ((scratch, spectrum), symbol) in self.scratch.iter_mut().zip(&*spectrum).zip(symbol) {
+                for ((scratch, spectrum), symbol) in self.scratch.iter_mut().zip(spectrum).zip(symbol) {
                     *scratch = spectrum * symbol;
                 }
                 grid.synthesise(&mut self.scratch, &mut values[range]);
             }
-        }
-    }
-
-    /// Copies another state's fields of the same layout.
-    pub fn copy_from(&mut self, other: &Self) {
-        self.length = other.length;
-        self.pointwise.copy_from_slice(&other.pointwise);
-        self.spectra.copy_from_slice(&other.spectra);
-        if let (Some(to), Some(from)) = (&mut self.interpolated, &other.interpolated) {
-            to.copy_from_slice(from);
         }
     }
 

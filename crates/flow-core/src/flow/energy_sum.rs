@@ -6,7 +6,7 @@
 use super::curve_fields::CurveFields;
 use super::slope_energy::SlopeEnergy;
 use crate::energies::{EnergyTerm, Fields, Jet, LengthJet, Order, TermFault};
-use crate::geometry::{Complex64, Layout, PeriodicGrid};
+use crate::geometry::{Complex64, Layout, PeriodicGrid, SpectralLayout};
 use crate::operators::Derivative;
 
 /// Gradient of the energy, as the flow map takes it.
@@ -31,6 +31,7 @@ pub struct EnergySum {
     motion: Vec<f64>,
     motion_spectra: Vec<Complex64>,
     product: Vec<f64>,
+    spectrum: Vec<Complex64>,
 }
 
 impl EnergySum {
@@ -60,6 +61,7 @@ impl EnergySum {
             motion: vec![0.0; nodes * fields],
             motion_spectra: vec![Complex64::default(); grid.modes() * fields],
             product: vec![0.0; nodes],
+            spectrum: vec![Complex64::default(); grid.modes()],
         }
     }
 
@@ -193,17 +195,20 @@ impl EnergySum {
         energy
     }
 
-    /// Second derivative times the motion `v` of the state vector, at the state of the last
+    /// Second derivative times the motion `v` of the spectral state vector, at the state of the last
     /// [`EnergySum::linearise`], whose fields are `at`.
     pub fn hessian_product(&mut self, at: &CurveFields, v: &[f64], out: &mut IntrinsicGradient) {
         let (fields, modes, length) = (self.layout.fields(), self.grid.modes(), at.length());
-        let length_motion = v[self.layout.length_index()];
-        for ((motion, v), phi) in self.motion.iter_mut().zip(v).zip(at.pointwise()) {
-            *motion = (v - phi * length_motion) / length;
-        }
+        let layout = SpectralLayout::new(self.layout);
+        let length_motion = v[layout.length_index()];
         for field in 0..fields {
-            let spectrum = &mut self.motion_spectra[field * modes..(field + 1) * modes];
-            self.grid.transform(&self.motion[self.layout.field(field)], spectrum);
+            let range = field * modes..(field + 1) * modes;
+            let spectrum = &mut self.motion_spectra[range.clone()];
+            for ((motion, v), phi) in spectrum.iter_mut().zip(&layout.spectra(v)[range]).zip(at.spectrum(field)) {
+                *motion = (v - phi * length_motion) / length;
+            }
+            self.spectrum.copy_from_slice(spectrum);
+            self.grid.synthesise(&mut self.spectrum, &mut self.motion[self.layout.field(field)]);
         }
         let mut by_length = self.of_length(length).second * length_motion;
         for field in 0..fields {

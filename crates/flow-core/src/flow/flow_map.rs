@@ -39,6 +39,12 @@ impl FlowMap {
         (&mut self.grid, &self.derivative)
     }
 
+    /// How often a mode stands in the full spectrum.
+    #[must_use]
+    pub fn multiplicity(&self, mode: usize) -> f64 {
+        self.grid.multiplicity(mode)
+    }
+
     /// Force f = −Aᵀ∇𝓕 of a gradient given by the spectra `gradient` (one per field, per unit length) and
     /// `by_length` = ∂𝓕/∂|Γ| at fixed K and m. f is a density in L²(dσ).
     pub fn force(&mut self, at: &CurveFields, gradient: &[Complex64], by_length: f64, force: &mut [f64]) {

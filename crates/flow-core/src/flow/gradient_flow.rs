@@ -5,7 +5,7 @@ use super::density_mobility::DensityMobility;
 use super::energy_sum::{EnergySum, IntrinsicGradient};
 use super::flow_map::FlowMap;
 use super::normal_mobility::NormalMobility;
-use crate::geometry::{Complex64, Layout};
+use crate::geometry::{Complex64, Layout, SpectralLayout};
 
 /// What an evaluation of the flow tells besides the rates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -29,7 +29,6 @@ pub struct GradientFlow {
     gradient: IntrinsicGradient,
     force: Vec<f64>,
     velocity: Vec<f64>,
-    rates: Vec<Complex64>,
 }
 
 impl GradientFlow {
@@ -54,10 +53,9 @@ impl GradientFlow {
             density_mobilities,
             frozen: current.clone(),
             current,
-            gradient: IntrinsicGradient { spectra: spectra.clone(), by_length: 0.0 },
+            gradient: IntrinsicGradient { spectra, by_length: 0.0 },
             force: vec![0.0; layout.nodes()],
             velocity: vec![0.0; layout.nodes()],
-            rates: spectra,
         }
     }
 
@@ -84,6 +82,12 @@ impl GradientFlow {
         &self.density_mobilities
     }
 
+    /// Fields at the state evaluated last.
+    #[must_use]
+    pub fn current(&self) -> &CurveFields {
+        &self.current
+    }
+
     /// Fields at the linearisation.
     #[must_use]
     pub fn frozen(&self) -> &CurveFields {
@@ -97,37 +101,41 @@ impl GradientFlow {
         self.map.grid_and_derivative()
     }
 
-    /// Rate of the state `y` into `rate`.
-    pub fn rate(&mut self, y: &[f64], rate: &mut [f64]) -> Rate {
-        let (grid, derivative) = self.map.grid_and_derivative();
-        self.current.set(y, grid, derivative);
-        let energy = self.energy.gradient(&self.current, &mut self.gradient);
-        self.descend(false);
-        let dissipation = self.dissipation();
-        self.write_rates(false, rate);
-        Rate { energy, dissipation }
+    /// Shape of the spectral state vector.
+    #[must_use]
+    pub fn spectral_layout(&self) -> SpectralLayout {
+        SpectralLayout::new(self.layout)
     }
 
-    /// Energy and dissipation of the state `y`; cheaper than a rate.
-    pub fn dissipation_at(&mut self, y: &[f64]) -> Rate {
-        let (grid, derivative) = self.map.grid_and_derivative();
-        self.current.set(y, grid, derivative);
-        let energy = self.energy.gradient(&self.current, &mut self.gradient);
+    /// How often a mode stands in the full spectrum.
+    #[must_use]
+    pub fn multiplicity(&self, mode: usize) -> f64 {
+        self.map.multiplicity(mode)
+    }
+
+    /// Rate of `state` into `rate`, both spectral.
+    pub fn spectral_rate(&mut self, state: &[f64], rate: &mut [f64]) -> Rate {
+        let evaluated = self.spectral_dissipation(state);
+        self.write_rates(false, rate);
+        evaluated
+    }
+
+    /// Energy and dissipation of the spectral `state`; cheaper than a rate.
+    pub fn spectral_dissipation(&mut self, state: &[f64]) -> Rate {
+        let energy = self.spectral_gradient(state);
         self.descend(false);
         Rate { energy, dissipation: self.dissipation() }
     }
 
-    /// Energy of the state `y`.
-    pub fn energy_at(&mut self, y: &[f64]) -> f64 {
+    /// Energy of the spectral `state`; its gradient is then at [`GradientFlow::gradient`].
+    pub fn spectral_gradient(&mut self, state: &[f64]) -> f64 {
         let (grid, derivative) = self.map.grid_and_derivative();
-        self.current.set(y, grid, derivative);
+        self.current.set(state, grid, derivative);
         self.energy.gradient(&self.current, &mut self.gradient)
     }
 
-    /// Energy of each term at the state `y`.
-    pub fn energies_by_term(&mut self, y: &[f64]) -> Vec<f64> {
-        let (grid, derivative) = self.map.grid_and_derivative();
-        self.current.set(y, grid, derivative);
+    /// Energy of each term at the state evaluated last.
+    pub fn current_energies_by_term(&mut self) -> Vec<f64> {
         self.energy.energies_by_term(&self.current)
     }
 
@@ -154,54 +162,30 @@ impl GradientFlow {
         self.map.tangential_velocity(&self.current, &self.velocity, w);
     }
 
-    /// Freezes the implicit operator −𝓚 Hess 𝓕_h at `y`.
-    pub fn linearise(&mut self, y: &[f64]) {
+    /// Freezes the implicit operator −𝓚 Hess 𝓕_h at the spectral `state`.
+    pub fn spectral_linearise(&mut self, state: &[f64]) {
         let (grid, derivative) = self.map.grid_and_derivative();
-        self.frozen.set(y, grid, derivative);
+        self.frozen.set(state, grid, derivative);
         self.energy.linearise(&self.frozen, &mut self.gradient);
     }
 
-    /// Product of the frozen −𝓚 Hess 𝓕_h with `v`.
-    pub fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
-        self.energy.hessian_product(&self.frozen, v, &mut self.gradient);
+    /// Product of the frozen −𝓚 Hess 𝓕_h with `v`, both spectral.
+    pub fn spectral_jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
+        self.spectral_hessian_product(v);
         self.descend(true);
         self.write_rates(true, out);
     }
 
-    /// Product of the frozen Hess 𝓕_h with `v`, as a vector dual to the state: ⟨Hess v, w⟩ is the mean over the
-    /// nodes of the products of the fields plus the product of the lengths.
-    pub fn hessian_product(&mut self, v: &[f64], out: &mut [f64]) {
+    /// Product of the frozen Hess 𝓕_h with the spectral `v`, at [`GradientFlow::gradient`].
+    pub fn spectral_hessian_product(&mut self, v: &[f64]) {
         self.energy.hessian_product(&self.frozen, v, &mut self.gradient);
-        self.write_gradient(out);
     }
 
-    /// Gradient of the energy at `y` as a vector dual to the state (see [`GradientFlow::hessian_product`]).
-    pub fn gradient_at(&mut self, y: &[f64], out: &mut [f64]) -> f64 {
-        let energy = self.energy_at(y);
-        self.write_gradient(out);
-        energy
-    }
-
-    fn write_gradient(&mut self, out: &mut [f64]) {
-        let (grid, _) = self.map.grid_and_derivative();
-        let modes = grid.modes();
-        for field in 0..self.layout.fields() {
-            let spectrum = &mut self.rates[field * modes..(field + 1) * modes];
-            spectrum.copy_from_slice(&self.gradient.spectra[field * modes..(field + 1) * modes]);
-            grid.synthesise(spectrum, &mut out[self.layout.field(field)]);
-        }
-        out[self.layout.length_index()] = self.gradient.by_length;
-    }
-
-    /// 𝓚 applied to the dual vector `dual`, at the frozen state.
-    pub fn apply_mobility(&mut self, dual: &[f64], out: &mut [f64]) {
-        let (grid, _) = self.map.grid_and_derivative();
-        let modes = grid.modes();
-        for field in 0..self.layout.fields() {
-            let spectrum = &mut self.gradient.spectra[field * modes..(field + 1) * modes];
-            grid.transform(&dual[self.layout.field(field)], spectrum);
-        }
-        self.gradient.by_length = dual[self.layout.length_index()];
+    /// 𝓚 applied to the spectral dual vector `dual`, at the frozen state.
+    pub fn spectral_mobility(&mut self, dual: &[f64], out: &mut [f64]) {
+        let layout = self.spectral_layout();
+        self.gradient.spectra.copy_from_slice(layout.spectra(dual));
+        self.gradient.by_length = dual[layout.length_index()];
         self.descend(true);
         self.write_rates(true, out);
         out.iter_mut().for_each(|value| *value = -*value);
@@ -236,19 +220,18 @@ impl GradientFlow {
     fn write_rates(&mut self, frozen: bool, out: &mut [f64]) {
         let at = if frozen { &self.frozen } else { &self.current };
         let length = at.length();
-        out[self.layout.length_index()] = self.map.rates(at, &self.velocity, &mut self.rates);
+        let layout = SpectralLayout::new(self.layout);
+        let rates = layout.spectra_mut(out);
+        let length_rate = self.map.rates(at, &self.velocity, rates);
         let (grid, derivative) = self.map.grid_and_derivative();
         let modes = grid.modes();
-        for field in 0..self.layout.fields() {
-            let rate = &mut self.rates[field * modes..(field + 1) * modes];
-            if field > 0 {
-                let mobility = self.density_mobilities[field - 1];
-                let mu = &self.gradient.spectra[field * modes..(field + 1) * modes];
-                for ((rate, mu), symbol) in rate.iter_mut().zip(mu).zip(derivative.minus_laplacian()) {
-                    *rate -= mu * (length * mobility.symbol(*symbol, length));
-                }
+        for (density, mobility) in self.density_mobilities.iter().enumerate() {
+            let range = (density + 1) * modes..(density + 2) * modes;
+            let (rate, mu) = (&mut rates[range.clone()], &self.gradient.spectra[range]);
+            for ((rate, mu), symbol) in rate.iter_mut().zip(mu).zip(derivative.minus_laplacian()) {
+                *rate -= mu * (length * mobility.symbol(*symbol, length));
             }
-            grid.synthesise(rate, &mut out[self.layout.field(field)]);
         }
+        out[layout.length_index()] = length_rate;
     }
 }

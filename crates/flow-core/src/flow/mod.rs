@@ -5,6 +5,7 @@ mod density_mobility;
 mod energy_sum;
 mod flow_map;
 mod gradient_flow;
+mod nodal;
 mod normal_mobility;
 mod preconditioner;
 mod slope_energy;

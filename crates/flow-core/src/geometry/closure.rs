@@ -2,6 +2,7 @@
 //! See `THEORY.md`, eq. (G5).
 
 use super::embedding::Embedding;
+use super::grid::Complex64;
 
 /// The curve could not be closed.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -35,7 +36,7 @@ impl Closure {
         Self { embedding: Embedding::new(nodes) }
     }
 
-    /// Corrects `turning` (K = κ|Γ|) in place and returns the gap before the correction.
+    /// Corrects the spectrum `turning` of K = κ|Γ| in place and returns the gap before the correction.
     ///
     /// The total turning is reset to 2π `turning_number`. The tangents of the closed curve, for the mean
     /// tangent angle `angle`, are in [`Closure::embedding`] afterwards.
@@ -44,18 +45,16 @@ impl Closure {
     /// [`ClosureError`] if Newton's method does not reach rounding; `turning` is then meaningless.
     pub fn project(
         &mut self,
-        turning: &mut [f64],
+        turning: &mut [Complex64],
         length: f64,
         turning_number: i32,
         angle: f64,
     ) -> Result<f64, ClosureError> {
-        let nodes = turning.len() as f64;
-        let excess = turning.iter().sum::<f64>() / nodes - std::f64::consts::TAU * f64::from(turning_number);
-        turning.iter_mut().for_each(|k| *k -= excess);
+        turning[0] = Complex64::new(std::f64::consts::TAU * f64::from(turning_number), 0.0);
         let mut first_gap = 0.0;
         let mut gap = f64::INFINITY;
         for iteration in 0..MOST_CORRECTIONS {
-            self.embedding.set_tangent(turning, length, angle);
+            self.embedding.set_tangent_spectrum(turning, length, angle);
             let [gx, gy] = self.embedding.gap();
             gap = gx.hypot(gy);
             if iteration == 0 {
@@ -64,15 +63,13 @@ impl Closure {
             if gap <= CLOSED * length {
                 return Ok(first_gap);
             }
-            self.embedding.set_position(length, [0.0; 2]);
-            let [x, y] = self.embedding.position();
-            let moment = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() / nodes;
-            let (xx, xy, yy) = (moment(x, x), moment(x, y), moment(y, y));
-            // δ(gap) = (∫y δK, −∫x δK) for δK = a x + b y.
+            let [x, y] = self.embedding.shape_spectra();
+            let (xx, xy, yy) = (length * moment(x, x), length * moment(x, y), length * moment(y, y));
+            // δ(gap) = (∫y δK ds, −∫x δK ds) for δK = a x + b y, with x and y per length.
             let determinant = xx * yy - xy * xy;
             let (a, b) = ((xy * gx + yy * gy) / determinant, -(xx * gx + xy * gy) / determinant);
             for ((k, x), y) in turning.iter_mut().zip(x).zip(y) {
-                *k += a * x + b * y;
+                *k += x * a + y * b;
             }
         }
         Err(ClosureError { gap, length, iterations: MOST_CORRECTIONS })
@@ -82,4 +79,9 @@ impl Closure {
     pub fn embedding(&mut self) -> &mut Embedding {
         &mut self.embedding
     }
+}
+
+/// Mean of the product of two fields without mean or sawtooth.
+fn moment(a: &[Complex64], b: &[Complex64]) -> f64 {
+    2.0 * a.iter().zip(b).map(|(a, b)| a.re * b.re + a.im * b.im).sum::<f64>()
 }

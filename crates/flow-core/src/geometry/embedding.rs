@@ -22,6 +22,7 @@ pub struct Embedding {
     theta: Vec<f64>,
     tangent: [Vec<f64>; 2],
     position: [Vec<f64>; 2],
+    shape: [Vec<Complex64>; 2],
     gap: [f64; 2],
 }
 
@@ -33,6 +34,7 @@ impl Embedding {
         let field = vec![0.0; nodes];
         Self {
             spectrum: vec![Complex64::default(); grid.modes()],
+            shape: [vec![Complex64::default(); grid.modes()], vec![Complex64::default(); grid.modes()]],
             grid,
             theta: field.clone(),
             tangent: [field.clone(), field.clone()],
@@ -41,15 +43,24 @@ impl Embedding {
         }
     }
 
-    /// Tangents and closure gap of the curve with turning per parameter `turning` and length `length`,
+    /// Tangents and closure gap of the curve with turning per parameter `turning` (nodal) and length `length`,
     /// with mean tangent angle `angle`. Call before the accessors.
     pub fn set_tangent(&mut self, turning: &[f64], length: f64, angle: f64) {
-        let nodes = self.grid.nodes() as f64;
         self.grid.transform(turning, &mut self.spectrum);
+        self.tangent_of_spectrum(length, angle);
+    }
+
+    /// As [`Embedding::set_tangent`], from the spectrum of the turning.
+    pub fn set_tangent_spectrum(&mut self, turning: &[Complex64], length: f64, angle: f64) {
+        self.spectrum.copy_from_slice(turning);
+        self.tangent_of_spectrum(length, angle);
+    }
+
+    fn tangent_of_spectrum(&mut self, length: f64, angle: f64) {
+        let nodes = self.grid.nodes() as f64;
         let turning_per_node = self.spectrum[0].re / nodes;
-        self.integrate();
+        integrate(&self.grid, &mut self.spectrum);
         self.grid.synthesise(&mut self.spectrum, &mut self.theta);
-        // The mean of 2πωs over the nodes is taken out with the ramp itself.
         for (i, theta) in self.theta.iter_mut().enumerate() {
             *theta += angle + turning_per_node * i as f64;
         }
@@ -62,26 +73,24 @@ impl Embedding {
         }
     }
 
+    /// Spectra of the positions per length, mean zero, for the tangents set last; the gap is spread evenly.
+    pub fn shape_spectra(&mut self) -> [&[Complex64]; 2] {
+        for axis in 0..2 {
+            self.grid.transform(&self.tangent[axis], &mut self.shape[axis]);
+            integrate(&self.grid, &mut self.shape[axis]);
+        }
+        [&self.shape[0], &self.shape[1]]
+    }
+
     /// Positions for the tangents set last, with mean position `centre`; the gap is spread evenly.
     pub fn set_position(&mut self, length: f64, centre: [f64; 2]) {
+        self.shape_spectra();
         for axis in 0..2 {
-            self.grid.transform(&self.tangent[axis], &mut self.spectrum);
-            self.integrate();
+            self.spectrum.copy_from_slice(&self.shape[axis]);
             self.grid.synthesise(&mut self.spectrum, &mut self.position[axis]);
             for x in &mut self.position[axis] {
                 *x = centre[axis] + length * *x;
             }
-        }
-    }
-
-    /// Divides the spectrum by 2πij: the periodic antiderivative with mean zero.
-    fn integrate(&mut self) {
-        self.spectrum[0] = Complex64::default();
-        for (mode, value) in self.spectrum.iter_mut().enumerate().skip(1) {
-            *value /= Complex64::new(0.0, TAU * mode as f64);
-        }
-        if let Some(sawtooth) = self.grid.sawtooth_mode() {
-            self.spectrum[sawtooth] = Complex64::default();
         }
     }
 
@@ -107,5 +116,17 @@ impl Embedding {
     #[must_use]
     pub fn gap(&self) -> [f64; 2] {
         self.gap
+    }
+}
+
+/// Divides a spectrum by 2πij: the periodic antiderivative with mean zero.
+fn integrate(grid: &PeriodicGrid, spectrum: &mut [Complex64]) {
+    spectrum[0] = Complex64::default();
+    for (mode, value) in spectrum.iter_mut().enumerate().skip(1) {
+        let inverse = 1.0 / (TAU * mode as f64);
+        *value = Complex64::new(value.im * inverse, -value.re * inverse);
+    }
+    if let Some(sawtooth) = grid.sawtooth_mode() {
+        spectrum[sawtooth] = Complex64::default();
     }
 }

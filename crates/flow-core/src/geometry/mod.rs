@@ -8,10 +8,12 @@ mod embedding;
 mod grid;
 mod measures;
 pub mod shapes;
+mod spectral;
 mod state;
 
 pub use closure::{Closure, ClosureError};
 pub use embedding::{Embedding, Placement};
 pub use grid::{Complex64, PeriodicGrid};
 pub use measures::{enclosed_area, root_mean_square};
+pub use spectral::SpectralLayout;
 pub use state::{Layout, StateRef};

@@ -68,7 +68,7 @@ impl Bdf {
             integrals: Integrals::new(integral_rates),
             norm,
             newton: NewtonKrylov::new(size),
-            tolerance,
+            tolerance: tolerance * env("TS", 1.0),
             order: 1,
             last_order: 1,
             step,

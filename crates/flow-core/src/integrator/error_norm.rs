@@ -4,11 +4,11 @@ use std::ops::Range;
 
 use super::Problem;
 
-/// ‖e‖² = Σ over the blocks of mean(e²)/scale².
+/// ‖e‖² = Σ |e_b|²/|y_b|² over the blocks b.
 #[derive(Clone, Debug)]
 pub struct ErrorNorm {
     blocks: Vec<Range<usize>>,
-    /// 1/(number of entries × scale²) of each block.
+    /// 1/|y_b|² of each block.
     weights: Vec<f64>,
 }
 
@@ -23,10 +23,8 @@ impl ErrorNorm {
     /// Measures errors against the state `y` from now on.
     pub fn rescale(&mut self, problem: &dyn Problem, y: &[f64]) {
         for (index, (block, weight)) in self.blocks.iter().zip(&mut self.weights).enumerate() {
-            let entries = block.len() as f64;
-            let scale = (dot(&y[block.clone()], &y[block.clone()]) / entries).sqrt();
-            let scale = scale.max(problem.block_floor(index, y));
-            *weight = 1.0 / (entries * scale * scale);
+            let square = dot(&y[block.clone()], &y[block.clone()]);
+            *weight = 1.0 / square.max(problem.block_floor(index, y));
         }
     }
 

@@ -1,4 +1,4 @@
-//! Left-preconditioned GMRES for (I − γJ)x = r in the error norm. See `THEORY.md`, eq. (I3).
+//! Right-preconditioned GMRES for (I − γJ)x = r in the error norm. See `THEORY.md`, eq. (I3).
 
 use super::error_norm::{ErrorNorm, add_scaled};
 use super::{Counters, Problem};
@@ -11,6 +11,7 @@ pub struct Gmres {
     rotations: Vec<[f64; 2]>,
     right: Vec<f64>,
     product: Vec<f64>,
+    preconditioned: Vec<f64>,
 }
 
 /// What a solve reached.
@@ -18,7 +19,7 @@ pub struct Gmres {
 pub struct Solved {
     /// Iterations.
     pub iterations: usize,
-    /// Norm of the preconditioned residual.
+    /// Norm of the residual.
     pub residual: f64,
 }
 
@@ -32,10 +33,11 @@ impl Gmres {
             rotations: vec![[1.0, 0.0]; most],
             right: vec![0.0; most + 1],
             product: vec![0.0; size],
+            preconditioned: vec![0.0; size],
         }
     }
 
-    /// Solves until the preconditioned residual is below `goal` and reduced by `reduction`; overwrites `r` by x.
+    /// Solves until the residual is below `goal` and reduced by `reduction`; overwrites `r` by x.
     pub fn solve(
         &mut self,
         problem: &mut dyn Problem,
@@ -46,8 +48,6 @@ impl Gmres {
         r: &mut [f64],
         counters: &mut Counters,
     ) -> Solved {
-        problem.precondition(r);
-        counters.solves += 1;
         let start = norm.norm(r);
         let finite = start.is_finite();
         if !finite || start == 0.0 {
@@ -63,13 +63,14 @@ impl Gmres {
             let k = iterations;
             let (known, next) = self.basis.split_at_mut(k + 1);
             let next = &mut next[0];
-            problem.jacobian_product(&known[k], &mut self.product);
+            self.preconditioned.copy_from_slice(&known[k]);
+            problem.precondition(&mut self.preconditioned);
+            counters.solves += 1;
+            problem.jacobian_product(&self.preconditioned, &mut self.product);
             counters.jacobian_products += 1;
-            for ((next, v), product) in next.iter_mut().zip(&known[k]).zip(&self.product) {
+            for ((next, v), product) in next.iter_mut().zip(&self.preconditioned).zip(&self.product) {
                 *next = v - gamma * product;
             }
-            problem.precondition(next);
-            counters.solves += 1;
             let column = &mut self.hessenberg[k];
             for (entry, v) in column.iter_mut().zip(known.iter()) {
                 *entry = norm.product(next, v);
@@ -97,13 +98,13 @@ impl Gmres {
             next.iter_mut().for_each(|value| *value /= size);
         }
         counters.krylov_iterations += iterations as u64;
-        if iterations > 0 {
-            self.combine(iterations, r);
-        }
+        self.combine(iterations, r);
+        problem.precondition(r);
+        counters.solves += 1;
         Solved { iterations, residual }
     }
 
-    /// Back substitution, and the combination of the basis into `x`. Without iterations x = P⁻¹r stays.
+    /// Back substitution, and the combination of the basis into `x`.
     fn combine(&mut self, iterations: usize, x: &mut [f64]) {
         for row in (0..iterations).rev() {
             for column in row + 1..iterations {

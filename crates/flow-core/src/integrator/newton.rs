@@ -151,7 +151,7 @@ impl NewtonKrylov {
                 self.factorised_gamma = None;
             }
             let size = norm.norm(&self.correction);
-            if !size.is_finite() || !solved.residual.is_finite() || solved.residual > 0.5 * size.max(goal) {
+            if !size.is_finite() || !solved.residual.is_finite() || solved.residual > 0.5 * size.max(10.0 * goal) {
                 return false;
             }
             add_scaled(y, 1.0, &self.correction);
@@ -169,3 +169,8 @@ impl NewtonKrylov {
         false
     }
 }
+
+#[allow(non_snake_case)]
+fn KG() -> f64 { std::env::var("KG").ok().and_then(|x| x.parse().ok()).unwrap_or(1.0) }
+#[allow(non_snake_case)]
+fn KR() -> f64 { std::env::var("KR").ok().and_then(|x| x.parse().ok()).unwrap_or(0.1) }

@@ -5,7 +5,7 @@ use super::record::Frame;
 use crate::geometry::{StateRef, enclosed_area};
 use crate::integrator::{INTEGRALS, Problem};
 
-/// Evaluates all that a frame holds. The state is closed in place.
+/// Evaluates all that a frame holds, for a spectral state, which is closed in place.
 ///
 /// `integrals` are those carried along, less their start values; `start` holds the energy and the placement at
 /// time 0.
@@ -21,11 +21,13 @@ pub fn frame(
     // An interpolated state is closed to the tolerance; the projection takes the rest.
     membrane.finish(time, y);
     let closure_defect = closure_defect.unwrap_or_else(|| membrane.closure_defect());
-    let layout = membrane.flow().layout();
-    let rate = membrane.flow().dissipation_at(y);
+    let layout = membrane.layout();
+    let rate = membrane.flow().spectral_dissipation(y);
     let normal_velocity = membrane.flow().normal_velocity().to_vec();
-    let energy_terms = membrane.flow().energies_by_term(y);
-    let state = StateRef::new(layout, y);
+    let energy_terms = membrane.flow().current_energies_by_term();
+    let mut nodal = vec![0.0; layout.len()];
+    membrane.flow().decode(y, &mut nodal);
+    let state = StateRef::new(layout, &nodal);
     let length = state.length();
     let mut centre = start.centre;
     for (centre, moved) in centre.iter_mut().zip(&integrals[CENTRE]) {

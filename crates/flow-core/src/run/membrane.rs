@@ -27,6 +27,8 @@ pub struct Membrane {
     turning_number: i32,
     tangential: Vec<f64>,
     closure_defect: f64,
+    /// Mean coefficients of the conserved densities, from the first state finished on.
+    masses: Vec<f64>,
     /// Time, angle and rate of the angle at the last accepted state; rate at the candidate.
     placed: [f64; 3],
     candidate_angle_rate: f64,
@@ -46,6 +48,7 @@ impl Membrane {
             turning_number,
             tangential: vec![0.0; nodes],
             closure_defect: 0.0,
+            masses: Vec::new(),
             placed: [0.0, angle, 0.0],
             candidate_angle_rate: 0.0,
         }
@@ -79,56 +82,70 @@ impl Membrane {
         self.closure_defect
     }
 
+    /// Masses are linear invariants, kept by the integrator up to the rounding of each step; this takes the
+    /// rounding out, so that it does not add up.
+    fn keep_masses(&mut self, y: &mut [f64]) {
+        let layout = self.flow.spectral_layout();
+        let densities = self.flow.density_mobilities().len();
+        let means = (1..=densities).map(|field| layout.field(field).start);
+        if self.masses.is_empty() {
+            self.masses.extend(means.map(|mean| y[mean]));
+            return;
+        }
+        for (mean, mass) in means.zip(&self.masses) {
+            y[mean] = *mass;
+        }
+    }
+
     /// Rates of the integrals at the state evaluated last: dissipation, ⟨κW⟩, ⟨Vn + Wτ⟩.
-    fn integral_rates(&mut self, rate: Rate, y: &[f64]) -> [f64; INTEGRALS] {
-        let layout = self.flow.layout();
+    fn integral_rates(&mut self, rate: Rate) -> [f64; INTEGRALS] {
         self.flow.tangential_velocity(&mut self.tangential);
-        let length = y[layout.length_index()];
-        let nodes = layout.nodes() as f64;
-        let turning = &y[layout.field(0)];
+        let nodes = self.flow.layout().nodes() as f64;
+        let curvature = self.flow.current().at_nodes(0);
         let [tx, ty] = self.closure.embedding().tangent();
         let (mut angle, mut x, mut y) = (0.0, 0.0, 0.0);
         for (i, (v, w)) in self.flow.normal_velocity().iter().zip(&self.tangential).enumerate() {
-            angle += turning[i] * w;
+            angle += curvature[i] * w;
             // n = (τ_y, −τ_x).
             x += v * ty[i] + w * tx[i];
             y += w * ty[i] - v * tx[i];
         }
-        [rate.dissipation, angle / (length * nodes), x / nodes, y / nodes]
+        [rate.dissipation, angle / nodes, x / nodes, y / nodes]
     }
 }
 
 impl Problem for Membrane {
     fn size(&self) -> usize {
-        self.flow.layout().len()
+        self.flow.spectral_layout().len()
     }
 
     fn blocks(&self) -> Vec<Range<usize>> {
-        let layout = self.flow.layout();
-        let mut blocks: Vec<_> = (0..layout.fields()).map(|field| layout.field(field)).collect();
+        let layout = self.flow.spectral_layout();
+        let mut blocks: Vec<_> = (0..self.flow.layout().fields()).map(|field| layout.field(field)).collect();
         blocks.push(layout.length_index()..layout.len());
         blocks
     }
 
     fn block_floor(&self, block: usize, y: &[f64]) -> f64 {
-        let length = y[self.flow.layout().length_index()];
+        let length = y[self.flow.spectral_layout().length_index()];
         match block {
+            // A turn of the tangent per length, a thousandth of full coverage.
             0 => 1.0,
-            _ if block < self.flow.layout().fields() => 1e-3 * length,
+            _ if block < self.flow.layout().fields() => (1e-3 * length).powi(2),
             _ => f64::MIN_POSITIVE,
         }
     }
 
     fn rate(&mut self, y: &[f64], rate: &mut [f64]) {
-        self.flow.rate(y, rate);
+        self.flow.spectral_rate(y, rate);
     }
 
     fn linearise(&mut self, y: &[f64]) {
-        self.flow.linearise(y);
+        self.flow.spectral_linearise(y);
     }
 
     fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
-        self.flow.jacobian_product(v, out);
+        self.flow.spectral_jacobian_product(v, out);
     }
 
     fn factorise(&mut self, gamma: f64) -> bool {
@@ -150,23 +167,25 @@ impl Problem for Membrane {
     }
 
     fn finish(&mut self, time: f64, y: &mut [f64]) -> Finish {
-        let layout = self.flow.layout();
+        let layout = self.flow.spectral_layout();
         let length = y[layout.length_index()];
         let [start, angle, angle_rate] = self.placed;
         if !(length > 0.0 && length.is_finite()) || !y.iter().sum::<f64>().is_finite() {
             return Finish::NotFinite;
         }
+        self.keep_masses(y);
         // The angle at the candidate to second order; it turns the frame of the mean position only.
         let angle = angle + (time - start) * angle_rate;
-        match self.closure.project(&mut y[layout.field(0)], length, self.turning_number, angle) {
+        let turning = &mut layout.spectra_mut(y)[..layout.modes()];
+        match self.closure.project(turning, length, self.turning_number, angle) {
             Ok(gap) => self.closure_defect = gap,
             Err(_) => return Finish::NotFinite,
         }
-        let rate = self.flow.dissipation_at(y);
+        let rate = self.flow.spectral_dissipation(y);
         if !(rate.energy.is_finite() && rate.dissipation.is_finite()) {
             return Finish::NotFinite;
         }
-        let integral_rates = self.integral_rates(rate, y);
+        let integral_rates = self.integral_rates(rate);
         self.candidate_angle_rate = integral_rates[ANGLE];
         Finish::Good { energy: rate.energy, dissipation: rate.dissipation, integral_rates }
     }

@@ -10,7 +10,7 @@ use crate::flow::{
     DensityMobility, EnergySum, FlowMap, GradientFlow, Identity, LinearSolver, NormalMobility,
 };
 use crate::geometry::shapes::{Resampled, Shape};
-use crate::geometry::{Closure, Layout, PeriodicGrid, Placement};
+use crate::geometry::{Closure, Layout, PeriodicGrid, Placement, SpectralLayout};
 use crate::operators::{Derivative, DerivativeFamily};
 
 /// A flow with its initial state.
@@ -18,7 +18,7 @@ use crate::operators::{Derivative, DerivativeFamily};
 pub struct Setup {
     /// The problem.
     pub membrane: Membrane,
-    /// The initial state, closed to rounding.
+    /// The initial state (spectral), closed to rounding.
     pub state: Vec<f64>,
     /// Where the initial curve lies.
     pub placement: Placement,
@@ -90,8 +90,11 @@ fn initial_state(
         }
         densities.push(values);
     }
-    let mut state = layout.assemble(&curve.curvature, &densities, curve.length);
-    let turning = &mut state[layout.field(0)];
+    let nodal = layout.assemble(&curve.curvature, &densities, curve.length);
+    let spectral = SpectralLayout::new(layout);
+    let mut state = vec![0.0; spectral.len()];
+    spectral.encode(&mut PeriodicGrid::new(nodes), &nodal, &mut state);
+    let turning = &mut spectral.spectra_mut(&mut state)[..spectral.modes()];
     let gap = closure.project(turning, curve.length, curve.turning_number, curve.angle);
     match gap {
         Ok(gap) if gap <= LARGEST_GAP * curve.length => Ok((state, gap)),

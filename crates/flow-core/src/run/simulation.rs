@@ -12,7 +12,7 @@ use super::scene::Scene;
 use super::schedule::frame_times;
 use super::setup::Setup;
 use super::setup_error::SetupError;
-use crate::geometry::StateRef;
+use crate::geometry::{Layout, StateRef};
 use crate::integrator::{
     Adaptive, AdaptiveOptions, Bdf, Counters, Finish, INTEGRALS, Problem, StepReport, Stepper,
 };
@@ -145,7 +145,7 @@ impl Simulation {
             step_size: report.size,
             energy: report.energy,
             dissipation: report.dissipation,
-            length: self.state().length(),
+            length: self.length(),
         })
     }
 
@@ -198,10 +198,23 @@ impl Simulation {
         self.stopped = Some(reason);
     }
 
-    /// The last accepted state.
+    /// Shape of the nodal state.
     #[must_use]
-    pub fn state(&self) -> StateRef<'_> {
-        StateRef::new(self.membrane.layout(), self.integration.stepper().state())
+    pub fn layout(&self) -> Layout {
+        self.membrane.layout()
+    }
+
+    /// The last accepted state at the nodes (see [`Layout`]).
+    pub fn state(&mut self) -> Vec<f64> {
+        let mut nodal = vec![0.0; self.membrane.layout().len()];
+        self.membrane.flow().decode(self.integration.stepper().state(), &mut nodal);
+        nodal
+    }
+
+    /// Length |Γ| of the curve.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.integration.stepper().state().last().copied().unwrap_or_default()
     }
 
     /// Time of the last accepted state.
@@ -235,11 +248,13 @@ impl Simulation {
 /// Names the term that is not finite on the initial data.
 #[cold]
 fn not_finite(membrane: &mut Membrane, state: &[f64]) -> SetupError {
-    let layout = membrane.flow().layout();
-    let values = membrane.flow().energies_by_term(state);
+    let layout = membrane.layout();
+    let mut nodal = vec![0.0; layout.len()];
+    membrane.flow().decode(state, &mut nodal);
+    let values = membrane.flow().energies_by_term(&nodal);
     let names: Vec<_> = membrane.flow().energy_terms().names().collect();
     let culprit = values.iter().position(|value| !value.is_finite()).unwrap_or_default();
-    let curvature = StateRef::new(layout, state).pointwise(0);
+    let curvature = StateRef::new(layout, &nodal).pointwise(0);
     SetupError::EnergyNotFinite {
         term: names.get(culprit).copied().unwrap_or_default().to_owned(),
         value: values.get(culprit).copied().unwrap_or(f64::NAN),

@@ -259,10 +259,12 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
             self.grid.transform(&self.values, &mut self.spectrum);
             let correction = &self.correction[field * low..(field + 1) * low];
             let spectrum = &mut spectra[field * self.fine_modes..];
-            for ((target, value), correction) in spectrum.iter_mut().zip(&self.spectrum).zip(correction) {
+            // J makes no mean, but its local part does: the mean stays as it was.
+            for ((target, value), correction) in
+                spectrum.iter_mut().zip(&self.spectrum).zip(correction).skip(1)
+            {
                 *target = value * correction;
             }
-            // The mean of a conserved field is conserved by I − γJ.
         }
     }
 }

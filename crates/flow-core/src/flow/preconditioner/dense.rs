@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 use super::super::gradient_flow::GradientFlow;
-use crate::geometry::Layout;
+use crate::geometry::SpectralLayout;
 use crate::operators::FactorisationError;
 
 /// The factorisation.
@@ -16,7 +16,7 @@ pub struct Dense {
 impl Dense {
     /// Room for one factorisation.
     #[must_use]
-    pub fn new(layout: Layout) -> Self {
+    pub fn new(layout: SpectralLayout) -> Self {
         Self { size: layout.len(), factors: None }
     }
 
@@ -29,7 +29,7 @@ impl Dense {
         let (mut unit, mut product) = (vec![0.0; self.size], vec![0.0; self.size]);
         for column in 0..self.size {
             unit[column] = 1.0;
-            flow.jacobian_product(&unit, &mut product);
+            flow.spectral_jacobian_product(&unit, &mut product);
             unit[column] = 0.0;
             for row in 0..self.size {
                 matrix[(row, column)] -= gamma * product[row];

@@ -4,15 +4,16 @@
 //! γΦ″ (𝓚e) eᵀ: Sherman–Morrison. The row of the length in I + γ𝓚H₀ is eᵀ + γ(H₀𝓚e)ᵀ.
 
 use super::super::gradient_flow::GradientFlow;
+use crate::geometry::SpectralLayout;
 
 /// The rank-one correction.
 #[derive(Clone, Debug)]
 pub struct LengthCoupling {
     gamma: f64,
-    nodes: usize,
+    layout: SpectralLayout,
     /// 𝓚e.
     direction: Vec<f64>,
-    /// H₀𝓚e.
+    /// H₀𝓚e, each coefficient as often as it stands in the full spectrum: dot products are means.
     row: Vec<f64>,
     /// P₀𝓚e.
     response: Vec<f64>,
@@ -20,18 +21,12 @@ pub struct LengthCoupling {
 }
 
 impl LengthCoupling {
-    /// Room for states of length `size`.
+    /// Room for spectral states of `layout`.
     #[must_use]
-    pub fn new(size: usize) -> Self {
-        let zero = vec![0.0; size];
-        Self {
-            gamma: 0.0,
-            nodes: 1,
-            direction: zero.clone(),
-            row: zero.clone(),
-            response: zero,
-            curvature: 0.0,
-        }
+    pub fn new(layout: SpectralLayout) -> Self {
+        let zero = vec![0.0; layout.len()];
+        let (direction, row) = (zero.clone(), zero.clone());
+        Self { gamma: 0.0, layout, direction, row, response: zero, curvature: 0.0 }
     }
 
     /// Sets the coupling at the frozen state, given the inverse of the fields.
@@ -41,16 +36,19 @@ impl LengthCoupling {
         gamma: f64,
         mut inverse: impl FnMut(&mut GradientFlow, &mut [f64]),
     ) {
-        let layout = flow.layout();
-        let last = layout.length_index();
-        self.nodes = layout.nodes();
+        let last = self.layout.length_index();
         self.gamma = gamma;
         self.curvature = flow.energy_terms().of_length(flow.frozen().length()).second;
         self.row.fill(0.0);
         self.row[last] = 1.0;
-        flow.apply_mobility(&self.row, &mut self.direction);
-        flow.hessian_product(&self.direction, &mut self.row);
-        self.row[last] -= self.curvature * self.direction[last];
+        flow.spectral_mobility(&self.row, &mut self.direction);
+        flow.spectral_hessian_product(&self.direction);
+        let modes = self.layout.modes();
+        let row = self.layout.spectra_mut(&mut self.row);
+        for (index, (row, dual)) in row.iter_mut().zip(&flow.gradient().spectra).enumerate() {
+            *row = dual * flow.multiplicity(index % modes);
+        }
+        self.row[last] = flow.gradient().by_length - self.curvature * self.direction[last];
         self.response.copy_from_slice(&self.direction);
         inverse(flow, &mut self.response);
         let mut response = std::mem::take(&mut self.response);
@@ -63,7 +61,7 @@ impl LengthCoupling {
         let last = x.len() - 1;
         let sum: f64 = self.row[..last].iter().zip(&x[..last]).map(|(row, x)| row * x).sum();
         let diagonal = 1.0 + self.gamma * self.row[last].max(0.0);
-        x[last] = (x[last] - self.gamma * sum / self.nodes as f64) / diagonal;
+        x[last] = (x[last] - self.gamma * sum) / diagonal;
     }
 
     /// Completes the preconditioned fields in place.

@@ -8,7 +8,6 @@ mod length_coupling;
 use serde::{Deserialize, Serialize};
 
 use super::gradient_flow::GradientFlow;
-use crate::geometry::Complex64;
 use crate::operators::FactorisationError;
 use banded::Banded;
 use dense::Dense;
@@ -43,7 +42,6 @@ enum FieldInverse {
 pub struct Preconditioner {
     inverse: FieldInverse,
     coupling: Option<LengthCoupling>,
-    spectra: Vec<Complex64>,
 }
 
 impl Preconditioner {
@@ -61,13 +59,12 @@ impl Preconditioner {
                 Some(banded) => FieldInverse::Banded(banded, FourierSymbol::new(layout, modes)),
                 None => FieldInverse::Fourier(FourierSymbol::new(layout, modes)),
             },
-            LinearSolver::Dense => FieldInverse::Dense(Dense::new(layout)),
+            LinearSolver::Dense => FieldInverse::Dense(Dense::new(flow.spectral_layout())),
         };
         let whole = matches!(inverse, FieldInverse::Dense(_));
         Self {
             inverse,
-            coupling: (length_curvature != 0.0 && !whole).then(|| LengthCoupling::new(layout.len())),
-            spectra: vec![Complex64::default(); layout.fields() * modes],
+            coupling: (length_curvature != 0.0 && !whole).then(|| LengthCoupling::new(flow.spectral_layout())),
         }
     }
 
@@ -97,7 +94,7 @@ impl Preconditioner {
         Ok(())
     }
 
-    /// Overwrites `r` by the approximate solution of (I − γJ)x = r.
+    /// Overwrites the spectral vector `r` by the approximate solution of (I − γJ)x = r.
     pub fn apply(&mut self, flow: &mut GradientFlow, r: &mut [f64]) {
         self.apply_to_fields(flow, r);
         if let Some(coupling) = &self.coupling {
@@ -106,30 +103,16 @@ impl Preconditioner {
     }
 
     fn apply_to_fields(&mut self, flow: &mut GradientFlow, r: &mut [f64]) {
-        let layout = flow.layout();
-        let (grid, _) = flow.grid_and_derivative();
-        let modes = grid.modes();
-        if let FieldInverse::Dense(dense) = &self.inverse {
-            dense.apply(r);
-            return;
-        }
-        for field in 0..layout.fields() {
-            grid.transform(&r[layout.field(field)], &mut self.spectra[field * modes..(field + 1) * modes]);
-        }
+        let layout = flow.spectral_layout();
         match &mut self.inverse {
-            FieldInverse::Fourier(symbol) => symbol.apply(&mut self.spectra, 0),
+            FieldInverse::Fourier(symbol) => symbol.apply(layout.spectra_mut(r), 0),
             FieldInverse::Banded(banded, symbol) => {
                 let low = banded.modes();
-                banded.apply(&mut self.spectra);
-                symbol.apply(&mut self.spectra, low);
+                let spectra = layout.spectra_mut(r);
+                banded.apply(spectra);
+                symbol.apply(spectra, low);
             }
-            FieldInverse::Dense(_) => {}
-        }
-        for field in 0..layout.fields() {
-            grid.synthesise(
-                &mut self.spectra[field * modes..(field + 1) * modes],
-                &mut r[layout.field(field)],
-            );
+            FieldInverse::Dense(dense) => dense.apply(r),
         }
     }
 }

@@ -1,0 +1,73 @@
+//! Progress of a run on standard error: a line that renews itself on a terminal, elsewhere one every 30 s.
+
+use std::io::IsTerminal;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use flow_core::run::{Observer, Progress};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::print;
+
+/// Time between two lines where standard error is no terminal.
+const PLAIN_INTERVAL: Duration = Duration::from_secs(30);
+/// Time between two looks of the terminal line.
+const TERMINAL_INTERVAL: Duration = Duration::from_millis(100);
+
+/// Shows progress and passes on the wish to stop.
+#[derive(Debug)]
+pub struct Reporter {
+    stop: Arc<AtomicBool>,
+    line: Option<ProgressBar>,
+    interval: Option<Duration>,
+    shown: Instant,
+}
+
+impl Reporter {
+    /// A reporter that stops the run once `stop` is set.
+    pub fn new(quiet: bool, stop: Arc<AtomicBool>) -> Self {
+        let terminal = !quiet && std::io::stderr().is_terminal();
+        let line = terminal.then(|| {
+            let style = ProgressStyle::with_template("{spinner} {msg}");
+            let line = ProgressBar::new_spinner();
+            line.with_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()))
+        });
+        let interval = (!quiet).then_some(if terminal { TERMINAL_INTERVAL } else { PLAIN_INTERVAL });
+        Self { stop, line, interval, shown: Instant::now() }
+    }
+
+    /// Takes the line away.
+    pub fn finish(&self) {
+        if let Some(line) = &self.line {
+            line.finish_and_clear();
+        }
+    }
+}
+
+impl Observer for Reporter {
+    fn after_step(&mut self, progress: &Progress) -> ControlFlow<()> {
+        if self.interval.is_some_and(|interval| self.shown.elapsed() >= interval) {
+            self.shown = Instant::now();
+            let message = format!(
+                "t = {:.4e} of {:.4e}, step {} of size {:.2e}, energy {:.6}, dissipation {:.2e}, length {:.6}",
+                progress.time,
+                progress.end,
+                progress.steps,
+                progress.step_size,
+                progress.energy,
+                progress.dissipation,
+                progress.length
+            );
+            match &self.line {
+                Some(line) => {
+                    line.set_message(message);
+                    line.tick();
+                }
+                None => print::talk(&message),
+            }
+        }
+        if self.stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}

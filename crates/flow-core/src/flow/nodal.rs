@@ -1,0 +1,93 @@
+//! The gradient flow on nodal state vectors: for tests, for data that comes from outside, for pictures.
+//! The integrator works on spectral vectors (see `gradient_flow.rs`).
+
+use super::gradient_flow::{GradientFlow, Rate};
+
+impl GradientFlow {
+    /// Rate of the nodal state `y` into `rate`.
+    pub fn rate(&mut self, y: &[f64], rate: &mut [f64]) -> Rate {
+        let state = self.encoded(y);
+        let mut product = vec![0.0; state.len()];
+        let evaluated = self.spectral_rate(&state, &mut product);
+        self.decode(&product, rate);
+        evaluated
+    }
+
+    /// Energy and dissipation of the nodal state `y`.
+    pub fn dissipation_at(&mut self, y: &[f64]) -> Rate {
+        let state = self.encoded(y);
+        self.spectral_dissipation(&state)
+    }
+
+    /// Energy of the nodal state `y`.
+    pub fn energy_at(&mut self, y: &[f64]) -> f64 {
+        let state = self.encoded(y);
+        self.spectral_gradient(&state)
+    }
+
+    /// Gradient of the energy at `y` as a vector dual to the state: ⟨·, ·⟩ of a dual vector and a motion is the mean
+    /// over the nodes of the products of the fields plus the product of the lengths.
+    pub fn gradient_at(&mut self, y: &[f64], out: &mut [f64]) -> f64 {
+        let energy = self.energy_at(y);
+        self.write_gradient(out);
+        energy
+    }
+
+    /// Energy of each term at the nodal state `y`.
+    pub fn energies_by_term(&mut self, y: &[f64]) -> Vec<f64> {
+        self.energy_at(y);
+        self.current_energies_by_term()
+    }
+
+    /// Freezes the implicit operator −𝓚 Hess 𝓕_h at the nodal state `y`.
+    pub fn linearise(&mut self, y: &[f64]) {
+        let state = self.encoded(y);
+        self.spectral_linearise(&state);
+    }
+
+    /// Product of the frozen −𝓚 Hess 𝓕_h with the nodal vector `v`.
+    pub fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
+        let motion = self.encoded(v);
+        let mut product = vec![0.0; motion.len()];
+        self.spectral_jacobian_product(&motion, &mut product);
+        self.decode(&product, out);
+    }
+
+    /// Product of the frozen Hess 𝓕_h with the nodal vector `v`, dual to the state (see [`GradientFlow::gradient_at`]).
+    pub fn hessian_product(&mut self, v: &[f64], out: &mut [f64]) {
+        let motion = self.encoded(v);
+        self.spectral_hessian_product(&motion);
+        self.write_gradient(out);
+    }
+
+    /// 𝓚 applied to the dual vector `dual`, at the frozen state.
+    pub fn apply_mobility(&mut self, dual: &[f64], out: &mut [f64]) {
+        let dual = self.encoded(dual);
+        let mut product = vec![0.0; dual.len()];
+        self.spectral_mobility(&dual, &mut product);
+        self.decode(&product, out);
+    }
+
+    fn encoded(&mut self, nodal: &[f64]) -> Vec<f64> {
+        let layout = self.spectral_layout();
+        let mut state = vec![0.0; layout.len()];
+        layout.encode(self.grid_and_derivative().0, nodal, &mut state);
+        state
+    }
+
+    fn write_gradient(&mut self, out: &mut [f64]) {
+        let layout = self.spectral_layout();
+        let mut dual = vec![0.0; layout.len()];
+        layout.spectra_mut(&mut dual).copy_from_slice(&self.gradient().spectra);
+        dual[layout.length_index()] = self.gradient().by_length;
+        self.decode(&dual, out);
+    }
+
+    /// Nodal values of a spectral vector.
+    pub fn decode(&mut self, state: &[f64], nodal: &mut [f64]) {
+        let layout = self.spectral_layout();
+        let (grid, _) = self.grid_and_derivative();
+        let mut scratch = vec![crate::geometry::Complex64::default(); layout.modes()];
+        layout.decode(grid, state, &mut scratch, nodal);
+    }
+}

@@ -1,0 +1,35 @@
+//! The nodal lines of a record's agents as polylines, for pictures.
+
+use super::record::Record;
+use super::scene::Scene;
+use super::setup::nodal_lines;
+
+/// Points of a polyline.
+const POINTS: usize = 200;
+/// Part of the range of curvatures that is added at both ends.
+const MARGIN: f64 = 0.25;
+
+/// κ₀(ρ), ρ₋(κ) and ρ₊(κ) as points (ρ, κ) around the final state of `record`; none if its scene has no
+/// agents on the first density.
+#[must_use]
+pub fn nodal_polylines(record: &Record) -> Option<[Vec<(f64, f64)>; 3]> {
+    let scene = Scene::parse(&record.resolved_scene, "resolved scene").ok()?;
+    let agents = scene.energy.agents.as_ref()?;
+    if record.densities.first() != Some(&agents.density) {
+        return None;
+    }
+    let lines = nodal_lines(agents).ok()?;
+    let curvature = &record.frames.last()?.curvature;
+    let low = curvature.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = curvature.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let margin = MARGIN * (high - low);
+    let along = |from: f64, to: f64| {
+        (0..POINTS).map(move |k| from + (to - from) * k as f64 / (POINTS - 1) as f64)
+    };
+    let curvatures = || along(low - margin, high + margin);
+    Some([
+        along(0.0, 1.0).map(|rho| (rho, lines.preferred_curvature.evaluate(&[0.0, rho]))).collect(),
+        curvatures().map(|kappa| (lines.low_density.evaluate(&[kappa, 0.0]), kappa)).collect(),
+        curvatures().map(|kappa| (lines.high_density.evaluate(&[kappa, 0.0]), kappa)).collect(),
+    ])
+}

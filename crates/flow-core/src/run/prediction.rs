@@ -1,0 +1,60 @@
+//! What a run will take: nodes, memory, time; measured on a few trial steps.
+
+use super::observer::Quiet;
+use super::scene::{Frames, Scene};
+use super::setup_error::SetupError;
+use super::simulation::Simulation;
+
+/// Prediction of a run. Steps and time are rough: within a factor of three for the shipped scenes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prediction {
+    /// Number of nodes.
+    pub nodes: usize,
+    /// Length of the state vector.
+    pub unknowns: usize,
+    /// Memory of the solver and of all frames.
+    pub memory_bytes: f64,
+    /// Size of the result file if every frame is reached.
+    pub file_bytes: f64,
+    /// Seconds per step, measured.
+    pub seconds_per_step: f64,
+    /// Number of steps until the end time.
+    pub steps: f64,
+}
+
+/// Steps taken to measure.
+const TRIAL_STEPS: u64 = 12;
+/// Vectors of the size of the state that the solver holds: history, Krylov basis, scratch.
+const SOLVER_VECTORS: f64 = 80.0;
+/// Steps per decade of time at tolerance 1e-5 and order 5.
+const STEPS_PER_DECADE: f64 = 35.0;
+
+/// Predicts a run of `scene`.
+///
+/// # Errors
+/// [`SetupError`] if the scene makes no initial state.
+pub fn predict(scene: &Scene) -> Result<Prediction, SetupError> {
+    let mut simulation = Simulation::new(scene)?;
+    while simulation.counters().steps < TRIAL_STEPS && simulation.step(&mut Quiet) {}
+    let steps_taken = simulation.counters().steps.max(1) as f64;
+    let time = simulation.time().max(f64::MIN_POSITIVE);
+    let layout = simulation.layout();
+    let record = simulation.into_record();
+    let frames = match &scene.output.frames {
+        Frames::Spaced { frames, .. } => *frames,
+        Frames::At { times } => times.len(),
+    } as f64
+        + 1.0;
+    // Curvature, metric, velocity, two positions and the densities.
+    let file_bytes = 8.0 * frames * (layout.nodes() * (5 + layout.densities())) as f64;
+    let decades = (scene.time.end / time).log10().max(0.0);
+    let finer = (1e-5 / scene.accuracy.tolerance).powf(0.2);
+    Ok(Prediction {
+        nodes: layout.nodes(),
+        unknowns: layout.len(),
+        memory_bytes: 8.0 * SOLVER_VECTORS * layout.len() as f64 + file_bytes,
+        file_bytes,
+        seconds_per_step: record.counters.integration_seconds / steps_taken,
+        steps: steps_taken + STEPS_PER_DECADE * decades * finer,
+    })
+}
