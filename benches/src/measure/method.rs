@@ -1,7 +1,7 @@
 //! The methods, each built for a case and run by the core's step loop.
 
 use flow_core::integrator::{Bdf, Finish, Problem};
-use flow_core::run::Setup;
+use flow_core::run::{ENERGY_TOLERANCE_SHARE, Setup};
 
 use super::case::Case;
 use super::outcome::{Goal, Outcome, drive};
@@ -52,7 +52,7 @@ impl Method {
         let Finish::Good { energy, integral_rates, .. } = membrane.finish(0.0, &mut state) else {
             panic!("the initial state of `{}` is finite", case.scene);
         };
-        let goal = Goal { end, limit, energy };
+        let goal = Goal { end, limit, energy, energy_tolerance: ENERGY_TOLERANCE_SHARE * tolerance };
         let mut problem = Shared::new(membrane);
         match self.formula(&problem) {
             None => drive(&mut problem, goal, |problem, counters| {

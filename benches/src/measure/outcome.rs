@@ -34,6 +34,7 @@ pub(super) struct Goal {
     pub(super) end: f64,
     pub(super) limit: f64,
     pub(super) energy: f64,
+    pub(super) energy_tolerance: f64,
 }
 
 /// Runs the stepper that `build` makes, with its building under the clock.
@@ -45,7 +46,8 @@ pub(super) fn drive<P: Problem, S: Stepper>(
     let clock = Clock::start();
     let mut counters = Counters::default();
     let stepper = build(problem, &mut counters);
-    let options = AdaptiveOptions { end: goal.end, most_steps: u64::MAX };
+    let options =
+        AdaptiveOptions { end: goal.end, most_steps: u64::MAX, energy_tolerance: goal.energy_tolerance };
     let mut integration = Adaptive::new(stepper, options, goal.energy, counters);
     let mut unfinished = None;
     while integration.stepper().time() < goal.end && unfinished.is_none() {

@@ -129,9 +129,8 @@ impl Formula for Rosenbrock {
         for index in 0..self.stages.len() {
             let mut u = std::mem::take(&mut self.stages[index]);
             self.right_side(problem, y, gamma, index, &mut u, counters);
-            let solved = self.gmres.solve(problem, norm, gamma, goal, KRYLOV_REDUCTION, &mut u, counters);
-            // A NaN is no good residual either.
-            let good = solved.residual <= 0.5 * norm.norm(&u).max(goal);
+            let solved = self.gmres.solve(problem, norm, gamma, [goal, KRYLOV_REDUCTION], &mut u, counters);
+            let good = solved.converged;
             self.stages[index] = u;
             if problem.krylov_feedback(solved.iterations) || !good {
                 self.factorised = None;

@@ -34,6 +34,7 @@ fn main() {
         while s.step(&mut Quiet) {}
         let state = s.state();
         let r = s.into_record();
+        if verbose { for f in r.frames.iter().step_by(6) { println!("F {:.3e} bal {:.3e}", f.time, f.energy_balance); } }
         if verbose { for i in 0..r.steps.time.len() { println!("{} {:.4e} h {:.3e} k {} E {:.10} D {:.3e}", i, r.steps.time[i], r.steps.size[i], r.steps.order[i], r.steps.energy[i], r.steps.dissipation[i]); } }
         if r.counters.integration_seconds < best {
             best = r.counters.integration_seconds;

@@ -38,23 +38,36 @@ fn draw(record: &Record, name: &str) -> String {
     svg
 }
 
-/// All coordinates of an SVG document lie on the page of 1600 × 900.
+/// All points of the lines, circles and anchors of text of an SVG document lie on the page.
 fn assert_inside(svg: &str) {
-    for outline in svg.split("<path d=\"").skip(1) {
-        let outline = outline.split('"').next().unwrap();
-        let numbers =
-            outline.split(|c: char| c.is_ascii_uppercase() || c == ' ').filter(|text| !text.is_empty());
-        let numbers: Vec<f64> = numbers.map(|text| text.parse().unwrap()).collect();
-        for point in numbers.chunks_exact(2) {
-            let inside = (0.0..=1600.0).contains(&point[0]) && (0.0..=900.0).contains(&point[1]);
-            assert!(inside, "{point:?}");
+    let attributes = |name: &str| {
+        let start = format!(" {name}=\"");
+        let values = svg.split(&start).skip(1).map(|part| part.split('"').next().unwrap());
+        values.map(str::to_owned).collect::<Vec<_>>()
+    };
+    let view = attributes("viewBox")[0].split(' ').map(|n| n.parse().unwrap()).collect::<Vec<f64>>();
+    let assert_at = |value: &str, size: f64| {
+        let value: f64 = value.parse().unwrap();
+        assert!((0.0..=size).contains(&value), "{value} of {size}");
+    };
+    for points in attributes("points") {
+        for point in points.split_whitespace() {
+            let (x, y) = point.split_once(',').unwrap();
+            assert_at(x, view[2]);
+            assert_at(y, view[3]);
         }
     }
+    for (names, size) in [(["x", "cx"], view[2]), (["y", "cy"], view[3])] {
+        names.iter().flat_map(|name| attributes(name)).for_each(|value| assert_at(&value, size));
+    }
+    assert!(attributes("font-family").iter().all(|font| font == "DejaVu Sans, sans-serif"));
 }
 
 #[test]
 fn figures_stay_on_the_page() {
-    assert_inside(&draw(&synthetic::record(200, 512, &["protein"]), "density"));
+    let svg = draw(&synthetic::record(200, 512, &["protein"]), "density");
+    assert_inside(&svg);
+    assert!(["protein density ρ", "10⁻⁴", "κ₀(ρ)"].iter().all(|text| svg.contains(text)));
     assert_inside(&draw(&synthetic::record(200, 512, &[]), "curvature"));
 }
 
@@ -77,9 +90,11 @@ fn a_figure_needs_a_state_and_a_known_format() {
     let mut record = synthetic::record(1, 16, &[]);
     let nowhere = std::env::temp_dir().join("curveflow.pdf");
     assert!(matches!(plot(&record, &nowhere, &Options::default()), Err(PictureError::Format { .. })));
-    let no_pixels = Options { width: 0, ..Options::default() };
     let path = nowhere.with_extension("png");
-    assert!(matches!(plot(&record, &path, &no_pixels), Err(PictureError::Size { width: 0 })));
+    for width in [0, u32::MAX] {
+        let options = Options { width, ..Options::default() };
+        assert!(matches!(plot(&record, &path, &options), Err(PictureError::Size { .. })));
+    }
     record.frames.clear();
     assert!(matches!(plot(&record, &path, &Options::default()), Err(PictureError::NoFrames)));
 }

@@ -122,23 +122,3 @@ fn flipped_bits_are_never_read_as_data() {
     assert!(silent.is_empty(), "silently wrong after a flip at {silent:?}");
     assert!(found > 100, "only {found} of 400 flips noticed");
 }
-
-/// Needs the right to mount: `cargo test --features hdf5 -- --ignored full_disk`, as root on Linux.
-#[test]
-#[ignore = "mounts a small file system"]
-fn a_full_disk_is_an_error_and_the_old_file_stays() {
-    let folder = Folder::new("full-disk");
-    let mount = |args: &[&str]| std::process::Command::new(args[0]).args(&args[1..]).arg(&folder.0).status();
-    assert!(mount(&["mount", "-t", "tmpfs", "-o", "size=512k", "tmpfs"]).unwrap().success());
-    let path = folder.file("out.h5");
-    let result = std::panic::catch_unwind(|| {
-        let small = synthetic::record(2, 64, &[]);
-        hdf5_file::write(&small, &path, false).unwrap();
-        let error = hdf5_file::write(&synthetic::record(200, 512, &[]), &path, true).unwrap_err();
-        assert!(error.to_string().contains("free some space"), "{error}");
-        assert!(hdf5_file::read(&path).unwrap() == small);
-        assert_eq!(fs::read_dir(&folder.0).unwrap().count(), 1);
-    });
-    assert!(mount(&["umount"]).unwrap().success());
-    result.unwrap();
-}

@@ -21,6 +21,8 @@ pub struct Solved {
     pub iterations: usize,
     /// Norm of the residual.
     pub residual: f64,
+    /// Whether the residual is below its goal.
+    pub converged: bool,
 }
 
 impl Gmres {
@@ -43,15 +45,14 @@ impl Gmres {
         problem: &mut dyn Problem,
         norm: &ErrorNorm,
         gamma: f64,
-        goal: f64,
-        reduction: f64,
+        [goal, reduction]: [f64; 2],
         r: &mut [f64],
         counters: &mut Counters,
     ) -> Solved {
         let start = norm.norm(r);
         let finite = start.is_finite();
         if !finite || start == 0.0 {
-            return Solved { iterations: 0, residual: start };
+            return Solved { iterations: 0, residual: start, converged: finite };
         }
         let goal = goal.min(reduction * start);
         self.right.fill(0.0);
@@ -83,7 +84,7 @@ impl Gmres {
             }
             let radius = column[k].hypot(size);
             if !radius.is_finite() || radius == 0.0 {
-                return Solved { iterations, residual: f64::NAN };
+                return Solved { iterations, residual: f64::NAN, converged: false };
             }
             let (c, s) = (column[k] / radius, size / radius);
             self.rotations[k] = [c, s];
@@ -101,7 +102,7 @@ impl Gmres {
         self.combine(iterations, r);
         problem.precondition(r);
         counters.solves += 1;
-        Solved { iterations, residual }
+        Solved { iterations, residual, converged: residual <= goal }
     }
 
     /// Back substitution, and the combination of the basis into `x`.

@@ -96,6 +96,10 @@ pub trait Stepper {
     /// # Errors
     /// The cause of the rejection; the step size is then already reduced.
     fn attempt(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> Result<(), Rejection>;
+    /// Solves the candidate more exactly; false if that cannot be done.
+    fn polish(&mut self, _problem: &mut dyn Problem, _counters: &mut Counters) -> bool {
+        false
+    }
     /// The candidate of the last attempt.
     fn candidate(&mut self) -> &mut [f64];
     /// Throws the candidate away for a cause found outside and reduces the step size.

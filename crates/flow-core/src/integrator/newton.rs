@@ -6,8 +6,10 @@ use super::{Counters, Problem};
 
 const MOST_ITERATIONS: usize = 4;
 const MOST_KRYLOV: usize = 30;
+/// Linear residuals are reduced to this part of the goal: their square enters the dissipation.
+const KRYLOV_SHARE: f64 = 0.2;
 /// Each linear solve reduces its residual at least by this factor, so that Newton errors fade with the flow.
-const KRYLOV_REDUCTION: f64 = 0.03;
+const KRYLOV_REDUCTION: f64 = 0.1;
 /// γ may change by this factor before the preconditioner is factorised again.
 const GAMMA_DRIFT: f64 = 1.35;
 /// Accepted steps after which the linearisation is renewed in any case.
@@ -130,31 +132,9 @@ impl NewtonKrylov {
     ) -> bool {
         let mut previous = f64::INFINITY;
         for iteration in 0..MOST_ITERATIONS {
-            problem.rate(y, &mut self.rate);
-            counters.right_hand_sides += 1;
-            counters.newton_iterations += 1;
-            for (((correction, rate), constant), y) in
-                self.correction.iter_mut().zip(&self.rate).zip(constant).zip(&*y)
-            {
-                *correction = constant + gamma * rate - y;
-            }
-            let solved = self.gmres.solve(
-                problem,
-                norm,
-                gamma,
-                0.5 * goal,
-                KRYLOV_REDUCTION,
-                &mut self.correction,
-                counters,
-            );
-            if problem.krylov_feedback(solved.iterations) {
-                self.factorised_gamma = None;
-            }
-            let size = norm.norm(&self.correction);
-            if !size.is_finite() || !solved.residual.is_finite() || solved.residual > 0.5 * size.max(10.0 * goal) {
+            let Some(size) = self.correct(problem, norm, gamma, constant, y, goal, counters) else {
                 return false;
-            }
-            add_scaled(y, 1.0, &self.correction);
+            };
             if iteration > 0 {
                 self.contraction = (0.3 * self.contraction).max(size / previous);
             }
@@ -168,9 +148,36 @@ impl NewtonKrylov {
         }
         false
     }
-}
 
-#[allow(non_snake_case)]
-fn KG() -> f64 { std::env::var("KG").ok().and_then(|x| x.parse().ok()).unwrap_or(1.0) }
-#[allow(non_snake_case)]
-fn KR() -> f64 { std::env::var("KR").ok().and_then(|x| x.parse().ok()).unwrap_or(0.1) }
+    /// One Newton correction of `y`; its size, or none if the linear solve fails.
+    pub fn correct(
+        &mut self,
+        problem: &mut dyn Problem,
+        norm: &ErrorNorm,
+        gamma: f64,
+        constant: &[f64],
+        y: &mut [f64],
+        goal: f64,
+        counters: &mut Counters,
+    ) -> Option<f64> {
+        problem.rate(y, &mut self.rate);
+        counters.right_hand_sides += 1;
+        counters.newton_iterations += 1;
+        for (((correction, rate), constant), y) in
+            self.correction.iter_mut().zip(&self.rate).zip(constant).zip(&*y)
+        {
+            *correction = constant + gamma * rate - y;
+        }
+        let goals = [KRYLOV_SHARE * goal, KRYLOV_REDUCTION];
+        let solved = self.gmres.solve(problem, norm, gamma, goals, &mut self.correction, counters);
+        if problem.krylov_feedback(solved.iterations) {
+            self.factorised_gamma = None;
+        }
+        let size = norm.norm(&self.correction);
+        if !size.is_finite() || !solved.converged {
+            return None;
+        }
+        add_scaled(y, 1.0, &self.correction);
+        Some(size)
+    }
+}

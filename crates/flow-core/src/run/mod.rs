@@ -24,4 +24,4 @@ pub use record::{Frame, Record, StepLog, StopReason};
 pub use scene::{Scene, SceneError};
 pub use setup::{Setup, nodal_lines};
 pub use setup_error::SetupError;
-pub use simulation::{Simulation, run};
+pub use simulation::{ENERGY_TOLERANCE_SHARE, Simulation, run};

@@ -76,6 +76,17 @@ impl StopReason {
             Self::Failed(_) => "failed",
         }
     }
+
+    /// One sentence on it; the message of the failure if there was one.
+    #[must_use]
+    pub fn message(&self) -> &str {
+        match self {
+            Self::EndTime => "the end time was reached",
+            Self::Equilibrium => "the dissipation fell below the bound for equilibrium",
+            Self::Interrupted => "an observer asked the run to stop",
+            Self::Failed(message) => message,
+        }
+    }
 }
 
 /// A finished (or interrupted) run.

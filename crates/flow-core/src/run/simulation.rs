@@ -17,6 +17,9 @@ use crate::integrator::{
     Adaptive, AdaptiveOptions, Bdf, Counters, Finish, INTEGRALS, Problem, StepReport, Stepper,
 };
 
+/// Part of the tolerance by which the energy balance of one step may be off.
+pub const ENERGY_TOLERANCE_SHARE: f64 = 0.01;
+
 /// A scene under way.
 #[derive(Debug)]
 pub struct Simulation {
@@ -68,7 +71,11 @@ impl Simulation {
             Bdf::new(&mut membrane, &state, integral_rates, scene.accuracy.tolerance, &mut counters);
         counters.integration_seconds = clock.elapsed().as_secs_f64();
         let end = scene.time.end;
-        let options = AdaptiveOptions { end, most_steps: scene.time.max_steps.unwrap_or(u64::MAX) };
+        let options = AdaptiveOptions {
+            end,
+            most_steps: scene.time.max_steps.unwrap_or(u64::MAX),
+            energy_tolerance: ENERGY_TOLERANCE_SHARE * scene.accuracy.tolerance,
+        };
         let rest = scene.time.equilibrium_tolerance.unwrap_or(0.01 * scene.accuracy.tolerance);
         let mut frame_times = frame_times(&scene.output, end).into_iter();
         let record = Record {

@@ -80,9 +80,10 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
     /// Coefficients at the coarse nodes.
     fn restrict(&mut self, flow: &mut GradientFlow) {
         let coarse = self.grid.nodes();
-        let low = self.grid.modes();
+        let low = self.grid.modes().min(self.fine_modes);
         for field in 0..F {
-            self.spectrum.copy_from_slice(&flow.frozen().spectrum(field)[..low]);
+            self.spectrum.fill(Complex64::default());
+            self.spectrum[..low].copy_from_slice(&flow.frozen().spectrum(field)[..low]);
             let range = field * coarse..(field + 1) * coarse;
             self.grid.synthesise(&mut self.spectrum, &mut self.coefficients[range]);
         }
@@ -90,12 +91,13 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         for a in 0..F {
             for b in 0..=a {
                 let range = block * coarse..(block + 1) * coarse;
-                if self.fine_modes == low {
+                if self.fine_modes == self.grid.modes() {
                     self.coefficients[range].copy_from_slice(flow.energy_terms().jet().second(a, b));
                 } else {
                     let mut grid = flow.grid_and_derivative().0.clone();
                     grid.transform(flow.energy_terms().jet().second(a, b), &mut self.fine_spectrum);
-                    self.spectrum.copy_from_slice(&self.fine_spectrum[..low]);
+                    self.spectrum.fill(Complex64::default());
+                    self.spectrum[..low].copy_from_slice(&self.fine_spectrum[..low]);
                     self.grid.synthesise(&mut self.spectrum, &mut self.coefficients[range]);
                 }
                 block += 1;
@@ -121,7 +123,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         for field in 0..F {
             let second = flow.energy_terms().jet().second(field, field);
             let mean = (second.iter().sum::<f64>() / second.len() as f64).max(0.0);
-            for mode in 0..modes {
+            for mode in 0..modes.min(self.fine_modes) {
                 let exact = flow.grid_and_derivative().1.minus_laplacian()[mode];
                 let half = 0.5 * TAU * mode as f64 / coarse as f64;
                 let difference = (2.0 * coarse as f64 * half.sin()).powi(2);
@@ -241,7 +243,8 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
         let low = self.grid.modes();
         for field in 0..F {
             let correction = &self.correction[field * low..(field + 1) * low];
-            let spectrum = &spectra[field * self.fine_modes..];
+            let spectrum = &spectra[field * self.fine_modes..(field + 1) * self.fine_modes];
+            self.spectrum.fill(Complex64::default());
             for ((target, value), correction) in self.spectrum.iter_mut().zip(spectrum).zip(correction) {
                 *target = value * correction;
             }
@@ -258,7 +261,7 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
             }
             self.grid.transform(&self.values, &mut self.spectrum);
             let correction = &self.correction[field * low..(field + 1) * low];
-            let spectrum = &mut spectra[field * self.fine_modes..];
+            let spectrum = &mut spectra[field * self.fine_modes..(field + 1) * self.fine_modes];
             // J makes no mean, but its local part does: the mean stays as it was.
             for ((target, value), correction) in
                 spectrum.iter_mut().zip(&self.spectrum).zip(correction).skip(1)

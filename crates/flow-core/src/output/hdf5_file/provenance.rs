@@ -6,7 +6,7 @@ use hdf5_metno::{File, H5Type};
 use super::dataset::{building, text, write_text};
 use super::layout::{CAUSES, CONVENTIONS, COUNTERS};
 use crate::output::StorageError;
-use crate::run::{Record, StopReason};
+use crate::run::Record;
 
 const CITATION: &str = concat!(
     "Curveflow ",
@@ -55,18 +55,12 @@ pub(super) fn checksum(record: &Record) -> u64 {
 }
 
 fn texts(record: &Record) -> [(&'static str, &str); 5] {
-    let message = match &record.stop_reason {
-        StopReason::Failed(message) => message.as_str(),
-        StopReason::EndTime => "the end time was reached",
-        StopReason::Equilibrium => "the dissipation fell below the bound for equilibrium",
-        StopReason::Interrupted => "an observer asked the run to stop",
-    };
     [
         ("title", &record.title),
         ("scene", &record.scene),
         ("resolved_scene", &record.resolved_scene),
         ("stop_reason", record.stop_reason.name()),
-        ("message", message),
+        ("message", record.stop_reason.message()),
     ]
 }
 

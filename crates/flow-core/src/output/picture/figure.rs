@@ -1,16 +1,19 @@
-//! The page: a title and three panels.
+//! The figure: a title and three panels.
 
 use std::path::{Path, PathBuf};
 
-use super::drawing::{Drawing, Rect};
-use super::font::{Align, Style, Text, write};
-use super::panel::LARGE;
-use super::{bitmap, curve_panel, history_panel, state_panel, svg};
-use crate::output::{StorageError, atomic_file};
-use crate::run::Record;
+use plotters::prelude::DrawingBackend;
+use plotters::style::text_anchor::HPos;
 
-/// Size of the page; PNG files are scaled from it.
-const PAGE: [f64; 2] = [1600.0, 900.0];
+use super::page::{Drawn, LARGE, Page, SIZE};
+use super::panel::Rect;
+use super::render::{self, Draw, Failure};
+use super::{curve_panel, history_panel, state_panel};
+use crate::output::{StorageError, atomic_file};
+use crate::run::{Frame, Record};
+
+/// Widths of an image.
+const WIDTHS: std::ops::RangeInclusive<u32> = 200..=8000;
 
 /// Lines of the (ρ, κ) plane on which the energy of the agents vanishes, as samples (ρ, κ).
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -52,9 +55,12 @@ pub enum PictureError {
     /// The record holds no state.
     #[error("the run has no saved state to draw: run the scene again")]
     NoFrames,
-    /// The image cannot be that large, or cannot have no pixels.
-    #[error("cannot paint an image of {width} pixels width; try 1600")]
+    /// The image would be too small to read or too large for memory.
+    #[error("cannot draw an image of {width} pixels width: choose 200 to 8000")]
     Size { width: u32 },
+    /// The drawing itself failed.
+    #[error("cannot draw the figure")]
+    Drawing { source: Failure },
     /// The file could not be written.
     #[error(transparent)]
     Storage(#[from] StorageError),
@@ -64,37 +70,49 @@ pub enum PictureError {
 /// # Errors
 /// [`PictureError`]; the target is then as it was.
 pub fn plot(record: &Record, path: &Path, options: &Options) -> Result<(), PictureError> {
+    let (first, last) = record.frames.first().zip(record.frames.last()).ok_or(PictureError::NoFrames)?;
+    let (width, lines) = (options.width, options.nodal_lines.as_ref());
+    if !WIDTHS.contains(&width) {
+        return Err(PictureError::Size { width });
+    }
+    let figure = Figure { record, first, last, lines };
     let extension = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
-    let bytes = match extension.as_ref().and_then(|extension| extension.to_str()) {
-        Some("svg") => svg::document(&figure(record, options)?, &record.title, options.width).into_bytes(),
-        Some("png") => bitmap::png(&figure(record, options)?, options.width)
-            .ok_or(PictureError::Size { width: options.width })?,
+    let drawn = match extension.as_ref().and_then(|extension| extension.to_str()) {
+        Some("svg") => render::svg(width, &figure).map(String::into_bytes),
+        Some("png") => render::png(width, &figure),
         _ => return Err(PictureError::Format { path: path.to_path_buf() }),
     };
+    let bytes = drawn.map_err(|source| PictureError::Drawing { source })?;
     Ok(atomic_file::write(path, &bytes, options.replace)?)
 }
 
-fn figure(record: &Record, options: &Options) -> Result<Drawing, PictureError> {
-    let (first, last) = record.frames.first().zip(record.frames.last()).ok_or(PictureError::NoFrames)?;
-    let mut drawing = Drawing::new(PAGE[0], PAGE[1]);
-    write_title(&mut drawing, &record.title);
-    let left = Rect { left: 112.0, top: 118.0, right: 782.0, bottom: 820.0 };
-    curve_panel::draw(&mut drawing, left, record, first, last);
-    let upper = Rect { left: 1042.0, top: 118.0, right: 1480.0, bottom: 398.0 };
-    state_panel::draw(&mut drawing, upper, first, last, options.nodal_lines.as_ref());
-    let lower = Rect { top: 540.0, bottom: 820.0, ..upper };
-    history_panel::draw(&mut drawing, lower, record);
-    Ok(drawing)
+struct Figure<'a> {
+    record: &'a Record,
+    first: &'a Frame,
+    last: &'a Frame,
+    lines: Option<&'a NodalLines>,
+}
+
+impl Draw for Figure<'_> {
+    fn draw<DB: DrawingBackend>(&self, page: &Page<DB>) -> Drawn<DB> {
+        write_title(page, &self.record.title)?;
+        let left = Rect { left: 112.0, top: 118.0, right: 782.0, bottom: 820.0 };
+        curve_panel::draw(page, left, self.record, self.first, self.last)?;
+        let upper = Rect { left: 1042.0, top: 118.0, right: 1480.0, bottom: 398.0 };
+        state_panel::draw(page, upper, self.first, self.last, self.lines)?;
+        let lower = Rect { top: 540.0, bottom: 820.0, ..upper };
+        history_panel::draw(page, lower, self.record)
+    }
 }
 
 /// Writes the title, cut if it is too long for the page.
-fn write_title(drawing: &mut Drawing, title: &str) {
-    let room = PAGE[0] - 80.0;
-    let mut text = Text::plain(title);
-    let mut length = title.chars().count();
-    while text.width(LARGE) > room && length > 0 {
-        length -= 1;
-        text = Text::plain(title.chars().take(length).chain(['…']).collect::<String>());
+fn write_title<DB: DrawingBackend>(page: &Page<DB>, title: &str) -> Drawn<DB> {
+    // Control characters are not allowed in SVG.
+    let mut title: Vec<char> = title.chars().filter(|c| !c.is_control()).collect();
+    let mut text: String = title.iter().collect();
+    while page.width(&text, LARGE)? > SIZE[0] - 80.0 {
+        title.pop();
+        text = title.iter().chain(['…'].iter()).collect();
     }
-    write(drawing, [0.5 * PAGE[0], 38.0], &text, Style::new(LARGE, Align::Centre));
+    page.text(&text, LARGE, [0.5 * SIZE[0], 38.0], HPos::Center)
 }

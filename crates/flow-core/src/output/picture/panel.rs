@@ -1,148 +1,182 @@
-//! A panel: a frame with two axes, into which lines are drawn, clipped at the frame.
+//! A panel: a chart of `plotters` at a fixed place, into which lines are drawn, clipped at the frame.
 
-use super::axis::{Axis, power_of_ten};
-use super::colour_map::{Colour, GRID, INK};
-use super::drawing::{Drawing, Ink, Piece, Point, Rect};
-use super::font::{Align, Style, Text, write};
+use std::ops::Range;
 
-/// Font size of tick labels, legends and the like, of axis labels, and of the title.
-pub(super) const SMALL: f64 = 22.0;
-pub(super) const MEDIUM: f64 = 24.0;
-pub(super) const LARGE: f64 = 29.0;
-const TICK: f64 = 8.0;
+use plotters::prelude::*;
 
-/// A frame with a horizontal and a vertical axis.
+use super::axis::{Axis, LABELS};
+use super::page::{Drawn, GRID, INK, MEDIUM, Page, Pen, SMALL};
+
+/// Room for the labels around a frame.
+const LEFT: f64 = 84.0;
+const RIGHT: f64 = 104.0;
+const BELOW: f64 = 74.0;
+const TICK: f64 = 7.0;
+/// Points of a line closer than this are merged.
+const CLOSE: f64 = 2.5;
+
+/// Place of a frame on the page, in pixels.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rect {
+    pub left: f64,
+    pub top: f64,
+    pub right: f64,
+    pub bottom: f64,
+}
+
+impl Rect {
+    pub fn width(&self) -> f64 {
+        self.right - self.left
+    }
+
+    pub fn height(&self) -> f64 {
+        self.bottom - self.top
+    }
+}
+
+/// An axis and its name.
+pub(super) type Named<'a> = (Axis, &'a str);
+
+/// A frame with two axes.
+#[derive(Clone, Debug)]
 pub(super) struct Panel {
-    pub frame: Rect,
-    pub x: Axis,
-    pub y: Axis,
+    x: Axis,
+    y: Axis,
+    /// The frame, in pixels of the back end.
+    pixels: (Range<i32>, Range<i32>),
 }
 
 impl Panel {
-    /// Grid, ticks and labels; returns nothing, since the frame is fixed.
-    pub fn draw_axes(&self, drawing: &mut Drawing, x_label: &Text, y_label: &Text) {
-        for (value, _) in &self.x.ticks {
-            let x = self.at([*value, f64::NAN])[0];
-            drawing.line([x, self.frame.bottom], [x, self.frame.top], Ink::line(GRID, 1.2));
-        }
-        for (value, _) in &self.y.ticks {
-            let y = self.at([f64::NAN, *value])[1];
-            drawing.line([self.frame.left, y], [self.frame.right, y], Ink::line(GRID, 1.2));
-        }
-        self.draw_horizontal(drawing, x_label);
-        draw_vertical(drawing, &self.frame, &self.y, y_label, Side::Left, INK);
+    /// Draws grid, ticks and labels.
+    pub fn new<DB: DrawingBackend>(
+        page: &Page<DB>,
+        frame: Rect,
+        (x, x_name): Named<'_>,
+        (y, y_name): Named<'_>,
+    ) -> Drawn<DB, Self> {
+        let area = page.root.clone().shrink(
+            (page.px(frame.left - LEFT), page.px(frame.top)),
+            (page.px(frame.width() + LEFT), page.px(frame.height() + BELOW)),
+        );
+        let mut chart = ChartBuilder::on(&area)
+            .set_label_area_size(LabelAreaPosition::Left, page.px(LEFT))
+            .set_label_area_size(LabelAreaPosition::Bottom, page.px(BELOW))
+            .build_cartesian_2d(x, y)?;
+        let pixels = chart.plotting_area().get_pixel_range();
+        let light_lines = |axis: Axis| if axis.logarithmic { 10 } else { 0 };
+        chart
+            .configure_mesh()
+            .x_labels(LABELS)
+            .y_labels(LABELS)
+            .x_max_light_lines(light_lines(x))
+            .y_max_light_lines(light_lines(y))
+            .x_label_formatter(&|value| x.label(*value))
+            .y_label_formatter(&|value| y.label(*value))
+            .y_label_offset(page.drop(SMALL))
+            .bold_line_style(GRID.stroke_width(page.px(1.0) as u32))
+            .light_line_style(GRID.mix(0.5))
+            .axis_style(INK.stroke_width(page.px(1.5) as u32))
+            .set_all_tick_mark_size(page.px(TICK))
+            .label_style(page.font(SMALL, INK))
+            .axis_desc_style(page.font(MEDIUM, INK))
+            .x_desc(x.title(x_name))
+            .y_desc(y.title(y_name))
+            .draw()?;
+        Ok(Self { x, y, pixels })
+    }
+
+    /// A frame with an axis on its right only.
+    pub fn right<DB: DrawingBackend>(
+        page: &Page<DB>,
+        frame: Rect,
+        x: Axis,
+        (y, name): Named<'_>,
+        colour: RGBColor,
+    ) -> Drawn<DB, Self> {
+        let area = page.root.clone().shrink(
+            (page.px(frame.left), page.px(frame.top)),
+            (page.px(frame.width() + RIGHT), page.px(frame.height())),
+        );
+        let mut chart = ChartBuilder::on(&area)
+            .set_label_area_size(LabelAreaPosition::Right, page.px(RIGHT))
+            .build_cartesian_2d(x, y)?;
+        chart
+            .configure_mesh()
+            .disable_mesh()
+            .disable_x_axis()
+            .y_labels(LABELS)
+            .y_label_formatter(&|value| y.label(*value))
+            .y_label_offset(page.drop(SMALL))
+            .axis_style(INK.stroke_width(page.px(1.5) as u32))
+            .set_all_tick_mark_size(page.px(TICK))
+            .label_style(page.font(SMALL, colour))
+            .axis_desc_style(page.font(MEDIUM, colour))
+            .y_desc(y.title(name))
+            .draw()?;
+        Ok(Self { x, y, pixels: chart.plotting_area().get_pixel_range() })
     }
 
     /// The frame, on top of what was drawn.
-    pub fn draw_frame(&self, drawing: &mut Drawing) {
-        drawing.rectangle(&self.frame, Ink::line(INK, 1.8));
+    pub fn draw_frame<DB: DrawingBackend>(&self, page: &Page<DB>) -> Drawn<DB> {
+        let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]];
+        page.line(corners.map(|place| self.pixel(place)).to_vec(), Pen::solid(INK, 2.0))
     }
 
-    /// Point of the page that belongs to a pair of values.
-    pub fn at(&self, [x, y]: Point) -> Point {
-        let frame = &self.frame;
-        [frame.left + self.x.place(x) * frame.width(), frame.bottom - self.y.place(y) * frame.height()]
+    /// Pixel of the back end for a place in the unit square.
+    pub fn pixel(&self, [x, y]: [f64; 2]) -> (i32, i32) {
+        let (horizontal, vertical) = &self.pixels;
+        let along = |from: i32, to: i32, place: f64| from + (f64::from(to - from) * place).round() as i32;
+        (along(horizontal.start, horizontal.end, x), along(vertical.end, vertical.start, y))
     }
 
     /// A line through `points`, which are values; it breaks where it leaves the frame or is not finite.
-    pub fn line(&self, drawing: &mut Drawing, points: impl IntoIterator<Item = Point>, ink: Ink) {
-        let mut outline = Vec::new();
-        let mut last: Option<Point> = None;
-        let mut pen: Option<Point> = None;
+    pub fn line<DB: DrawingBackend>(
+        &self,
+        page: &Page<DB>,
+        points: impl IntoIterator<Item = [f64; 2]>,
+        pen: Pen,
+    ) -> Drawn<DB> {
+        let close = (CLOSE * page.scale).powi(2) as i32;
+        let mut piece: Vec<(i32, i32)> = Vec::new();
+        let mut end = None;
+        let mut last: Option<[f64; 2]> = None;
         for point in points {
-            let point = Some(self.at(point)).filter(|[x, y]| x.is_finite() && y.is_finite());
-            if let (Some(from), Some(to)) = (last, point)
-                && let Some([from, to]) = clipped(from, to, &self.frame)
-            {
-                if pen != Some(from) {
-                    outline.push(Piece::Move(from));
+            let place = [self.x.place(point[0]), self.y.place(point[1])];
+            let place = Some(place).filter(|place| place.iter().all(|place| place.is_finite()));
+            if let Some([from, to]) = last.zip(place).and_then(|(from, to)| clipped(from, to)) {
+                let (from, to) = (self.pixel(from), self.pixel(to));
+                if end != Some(from) {
+                    piece.extend(end.take());
+                    page.line(std::mem::take(&mut piece), pen)?;
+                    piece.push(from);
                 }
-                outline.push(Piece::Line(to));
-                pen = Some(to);
+                if piece.last().is_none_or(|at| (at.0 - to.0).pow(2) + (at.1 - to.1).pow(2) >= close) {
+                    piece.push(to);
+                }
+                end = Some(to);
             }
-            last = point;
+            last = place;
         }
-        drawing.add(outline, ink);
-    }
-
-    fn draw_horizontal(&self, drawing: &mut Drawing, label: &Text) {
-        let bottom = self.frame.bottom;
-        for (value, text) in &self.x.ticks {
-            let x = self.at([*value, f64::NAN])[0];
-            drawing.line([x, bottom], [x, bottom + TICK], Ink::line(INK, 1.8));
-            write(drawing, [x, bottom + 24.0], &Text::plain(text), Style::new(SMALL, Align::Centre));
-        }
-        for value in &self.x.minor {
-            let x = self.at([*value, f64::NAN])[0];
-            drawing.line([x, bottom], [x, bottom + 0.55 * TICK], Ink::line(INK, 1.2));
-        }
-        let centre = 0.5 * (self.frame.left + self.frame.right);
-        let label = with_exponent(label, self.x.exponent);
-        write(drawing, [centre, bottom + 56.0], &label, Style::new(MEDIUM, Align::Centre));
+        piece.extend(end);
+        page.line(piece, pen)
     }
 }
 
-/// Side of a vertical axis.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Side {
-    Left,
-    Right,
-}
-
-/// Ticks and labels of a vertical axis beside `frame`.
-pub(super) fn draw_vertical(
-    drawing: &mut Drawing,
-    frame: &Rect,
-    axis: &Axis,
-    label: &Text,
-    side: Side,
-    colour: Colour,
-) {
-    let (edge, out, align) =
-        if side == Side::Left { (frame.left, -1.0, Align::Right) } else { (frame.right, 1.0, Align::Left) };
-    let mut widest: f64 = 0.0;
-    for (value, text) in &axis.ticks {
-        let y = frame.bottom - axis.place(*value) * frame.height();
-        let text = Text::plain(text);
-        widest = widest.max(text.width(SMALL));
-        drawing.line([edge, y], [edge + out * TICK, y], Ink::line(INK, 1.8));
-        write(drawing, [edge + out * (TICK + 6.0), y], &text, Style::new(SMALL, align).coloured(colour));
-    }
-    let x = edge + out * (TICK + 6.0 + widest + 12.0 + 0.5 * MEDIUM);
-    let style = Style::new(MEDIUM, Align::Centre).coloured(colour).upwards();
-    write(drawing, [x, 0.5 * (frame.top + frame.bottom)], &with_exponent(label, axis.exponent), style);
-}
-
-/// The label with the power of ten that the ticks leave out.
-fn with_exponent(label: &Text, exponent: i32) -> Text {
-    if exponent == 0 { label.clone() } else { label.clone().and(&format!("  [{}]", power_of_ten(exponent))) }
-}
-
-/// The part of a segment inside `frame` (Liang and Barsky).
-fn clipped(from: Point, to: Point, frame: &Rect) -> Option<[Point; 2]> {
-    let (low, high) = ([frame.left, frame.top], [frame.right, frame.bottom]);
+/// The part of a segment inside the unit square (Liang and Barsky).
+fn clipped(from: [f64; 2], to: [f64; 2]) -> Option<[[f64; 2]; 2]> {
     let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
     for k in 0..2 {
         let step = to[k] - from[k];
         if step == 0.0 {
-            if !(low[k]..=high[k]).contains(&from[k]) {
+            if !(0.0..=1.0).contains(&from[k]) {
                 return None;
             }
             continue;
         }
-        let (a, b) = ((low[k] - from[k]) / step, (high[k] - from[k]) / step);
+        let (a, b) = (-from[k] / step, (1.0 - from[k]) / step);
         enter = enter.max(a.min(b));
         leave = leave.min(a.max(b));
     }
-    let along = |s: f64| {
-        // The ends themselves stay exact, so that a line inside the frame is one stroke.
-        if s == 0.0 {
-            from
-        } else if s == 1.0 {
-            to
-        } else {
-            [from[0] + s * (to[0] - from[0]), from[1] + s * (to[1] - from[1])]
-        }
-    };
+    let along = |s: f64| [0, 1].map(|k| from[k] + s * (to[k] - from[k]));
     (enter <= leave).then(|| [along(enter), along(leave)])
 }

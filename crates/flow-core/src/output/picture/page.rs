@@ -1,0 +1,128 @@
+//! The page: lengths in pixels of a page of 1600 × 900, lines with round joins, text and legends.
+
+use plotters::element::{Circle, DashedPathElement, DottedPathElement, PathElement};
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+/// Width and height; images are scaled from it.
+pub(super) const SIZE: [f64; 2] = [1600.0, 900.0];
+/// Name under which the fonts of `assets` are known to `plotters` and, in SVG files, to the viewer.
+pub(super) const FONT: &str = "DejaVu Sans, sans-serif";
+/// Font size of ticks and legends, of axis labels, and of the title.
+pub(super) const SMALL: f64 = 22.0;
+pub(super) const MEDIUM: f64 = 24.0;
+pub(super) const LARGE: f64 = 30.0;
+/// Line height of the font in units of its size; `plotters` counts font sizes so.
+const LINE_HEIGHT: f64 = 1.164;
+
+/// Axes and text.
+pub(super) const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
+/// The initial state.
+pub(super) const FAINT: RGBColor = RGBColor(0x80, 0x80, 0x80);
+/// Grid lines.
+pub(super) const GRID: RGBColor = RGBColor(0xE4, 0xE4, 0xE4);
+// Okabe and Ito's set, safe for colour-blind readers.
+pub(super) const SKY: RGBColor = RGBColor(0x00, 0x72, 0xB2);
+pub(super) const VERMILION: RGBColor = RGBColor(0xD5, 0x5E, 0x00);
+pub(super) const SEA: RGBColor = RGBColor(0x00, 0x9E, 0x73);
+
+/// Result of drawing on the back end `DB`.
+pub(super) type Drawn<DB, T = ()> = Result<T, DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
+
+/// Pattern of a line; lengths in pixels.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Pattern {
+    Solid,
+    Dashes { dash: f64, gap: f64 },
+    Dots { spacing: f64 },
+}
+
+/// Look of a line; lengths in pixels.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pen {
+    pub colour: RGBColor,
+    pub width: f64,
+    pub pattern: Pattern,
+}
+
+impl Pen {
+    pub const fn solid(colour: RGBColor, width: f64) -> Self {
+        Self { colour, width, pattern: Pattern::Solid }
+    }
+
+    pub const fn dashed(colour: RGBColor, width: f64, dash: f64, gap: f64) -> Self {
+        Self { colour, width, pattern: Pattern::Dashes { dash, gap } }
+    }
+}
+
+/// What all panels draw on.
+pub(super) struct Page<DB: DrawingBackend> {
+    pub root: DrawingArea<DB, plotters::coord::Shift>,
+    /// Back end pixels per page pixel.
+    pub scale: f64,
+    /// How far centred text has to be lowered, in units of its size: back ends place it differently.
+    pub text_drop: f64,
+}
+
+impl<DB: DrawingBackend> Page<DB> {
+    /// A length in pixels of the back end.
+    pub fn px(&self, length: f64) -> i32 {
+        (length * self.scale).round() as i32
+    }
+
+    /// The style of text of `size`.
+    pub fn font(&self, size: f64, colour: RGBColor) -> TextStyle<'static> {
+        (FONT, size * LINE_HEIGHT * self.scale).with_color(colour).into_text_style(&self.root)
+    }
+
+    /// How far centred text of `size` has to be lowered, in pixels of the back end.
+    pub fn drop(&self, size: f64) -> i32 {
+        self.px(self.text_drop * size)
+    }
+
+    /// Width of `text`.
+    pub fn width(&self, text: &str, size: f64) -> Drawn<DB, f64> {
+        let (width, _) = self.root.estimate_text_size(text, &self.font(size, INK))?;
+        Ok(f64::from(width) / self.scale)
+    }
+
+    /// One line of text, vertically centred at `at`.
+    pub fn text(&self, text: &str, size: f64, [x, y]: [f64; 2], align: HPos) -> Drawn<DB> {
+        let style = self.font(size, INK).pos(Pos::new(align, VPos::Center));
+        self.root.draw_text(text, &style, (self.px(x), self.px(y) + self.drop(size)))
+    }
+
+    /// A line through `points` of the back end.
+    pub fn line(&self, points: Vec<(i32, i32)>, pen: Pen) -> Drawn<DB> {
+        let width = self.px(pen.width).max(1);
+        let (path, dot) = (pen.colour.stroke_width(width as u32), pen.colour.filled());
+        match pen.pattern {
+            Pattern::Solid => {
+                for ends in points.windows(2).filter(|ends| ends[0] != ends[1]) {
+                    self.root.draw(&PathElement::new(ends, path))?;
+                }
+                // Rounds the joins.
+                points.into_iter().try_for_each(|at| self.root.draw(&Circle::new(at, width / 2, dot)))
+            }
+            Pattern::Dashes { dash, gap } => {
+                self.root.draw(&DashedPathElement::new(points, self.px(dash), self.px(gap), path))
+            }
+            Pattern::Dots { spacing } => {
+                let marker = move |at| Circle::new(at, width / 2, dot);
+                self.root.draw(&DottedPathElement::new(points, 0, self.px(spacing), marker))
+            }
+        }
+    }
+
+    /// A row of samples, starting at `at`: above a panel it hides nothing.
+    pub fn legend(&self, [mut x, y]: [f64; 2], entries: &[(Pen, &str)]) -> Drawn<DB> {
+        const SAMPLE: f64 = 38.0;
+        for (pen, text) in entries {
+            self.line(vec![(self.px(x), self.px(y)), (self.px(x + SAMPLE), self.px(y))], *pen)?;
+            x += SAMPLE + 9.0;
+            self.text(text, SMALL, [x, y], HPos::Left)?;
+            x += self.width(text, SMALL)? + 20.0;
+        }
+        Ok(())
+    }
+}

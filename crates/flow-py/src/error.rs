@@ -1,0 +1,59 @@
+//! Each error enum of `flow-core` is one exception class of `curveflow.errors`; a panic is a `BugError`.
+
+use std::error::Error;
+use std::fmt::Write;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use flow_core::output::StorageError;
+use flow_core::run::{SceneError, SetupError};
+use pyo3::prelude::*;
+
+/// An error with a class of its own in `curveflow.errors`.
+pub trait PythonError: Error + Send {
+    /// Name of the class.
+    const CLASS: &'static str;
+}
+
+impl PythonError for SceneError {
+    const CLASS: &'static str = "SceneError";
+}
+
+impl PythonError for SetupError {
+    const CLASS: &'static str = "SetupError";
+}
+
+impl PythonError for StorageError {
+    const CLASS: &'static str = "StorageError";
+}
+
+/// Runs `call` without the interpreter lock and turns its error, or its panic, into an exception.
+pub fn detached<T: Send, E: PythonError>(
+    py: Python<'_>,
+    call: impl FnOnce() -> Result<T, E> + Send,
+) -> PyResult<T> {
+    match py.detach(|| catch_unwind(AssertUnwindSafe(call))) {
+        Ok(Ok(value)) => Ok(value),
+        Ok(Err(error)) => Err(exception(py, E::CLASS, &message(&error))),
+        Err(_) => {
+            let text = "a bug in Curveflow: please report the lines above and the scene";
+            Err(exception(py, "BugError", text))
+        }
+    }
+}
+
+/// The error and everything that caused it, one line each, as the command line prints it.
+fn message(error: &dyn Error) -> String {
+    let mut text = error.to_string();
+    let mut cause = error.source();
+    while let Some(inner) = cause {
+        let _ = write!(text, "\n  caused by: {inner}"); // a String never fails
+        cause = inner.source();
+    }
+    text
+}
+
+#[cold]
+fn exception(py: Python<'_>, class: &str, message: &str) -> PyErr {
+    let raised = py.import("curveflow.errors").and_then(|errors| errors.getattr(class)?.call1((message,)));
+    raised.map_or_else(|error| error, PyErr::from_value)
+}

@@ -1,0 +1,21 @@
+//! The extension module `curveflow._curveflow`: one thin wrapper per call of `flow-core`.
+//!
+//! It borrows, releases the interpreter lock, maps errors and moves out; the public package with its docstrings is
+//! `python/curveflow`, the types are in `python/curveflow/_curveflow.pyi`.
+
+#![allow(clippy::needless_pass_by_value)] // the arguments of a call from Python arrive by value
+
+mod arrays;
+mod error;
+mod record;
+mod scene;
+mod watcher;
+
+/// The extension module.
+#[pyo3::pymodule]
+mod _curveflow {
+    #[pymodule_export]
+    use super::record::{Record, read, run};
+    #[pymodule_export]
+    use super::scene::{Scene, shipped};
+}

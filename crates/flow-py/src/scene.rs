@@ -1,0 +1,80 @@
+//! Scenes: text in, text out.
+
+use flow_core::run;
+use numpy::PyReadonlyArray1;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::arrays::{Vector, vector};
+use crate::error::detached;
+
+/// A scene that has been checked.
+#[pyclass(frozen, module = "curveflow._curveflow")]
+pub struct Scene {
+    pub(crate) core: run::Scene,
+    /// Its name in messages; paths in it start from the folder of this name.
+    #[pyo3(get)]
+    source_name: String,
+}
+
+#[pymethods]
+impl Scene {
+    /// Reads a scene file.
+    #[staticmethod]
+    fn read(py: Python<'_>, path: String) -> PyResult<Self> {
+        let core = detached(py, || run::Scene::read(&path))?;
+        Ok(Self { core, source_name: path })
+    }
+
+    /// Checks the text of a scene after writing the changes (key, value) into it.
+    #[staticmethod]
+    fn parse(
+        py: Python<'_>,
+        text: &str,
+        source_name: String,
+        changes: Vec<(String, String)>,
+    ) -> PyResult<Self> {
+        let core = detached(py, || run::Scene::parse_with(text, &source_name, &changes))?;
+        Ok(Self { core, source_name })
+    }
+
+    /// Title.
+    #[getter]
+    fn title(&self) -> &str {
+        &self.core.title
+    }
+
+    /// The scene as given.
+    #[getter]
+    fn text(&self) -> &str {
+        self.core.text()
+    }
+
+    /// The scene with every default filled in.
+    fn to_toml(&self) -> String {
+        self.core.to_toml()
+    }
+
+    /// Density of the agents and κ₀ at `density`, ρ₋ and ρ₊ at `curvature`; none without agents.
+    #[allow(clippy::type_complexity)] // written once
+    fn nodal_lines<'py>(
+        &self,
+        py: Python<'py>,
+        density: PyReadonlyArray1<'py, f64>,
+        curvature: PyReadonlyArray1<'py, f64>,
+    ) -> PyResult<Option<(&str, Vector<'py>, Vector<'py>, Vector<'py>)>> {
+        let Some(agents) = &self.core.energy.agents else { return Ok(None) };
+        let lines = run::nodal_lines(agents).map_err(|error| PyValueError::new_err(error.to_string()))?;
+        let (density, curvature) = (density.as_slice()?, curvature.as_slice()?);
+        let preferred = density.iter().map(|&rho| lines.preferred_curvature.evaluate(&[0.0, rho])).collect();
+        let low = curvature.iter().map(|&kappa| lines.low_density.evaluate(&[kappa, 0.0])).collect();
+        let high = curvature.iter().map(|&kappa| lines.high_density.evaluate(&[kappa, 0.0])).collect();
+        Ok(Some((&agents.density, vector(py, preferred), vector(py, low), vector(py, high))))
+    }
+}
+
+/// Name and text of each scene that comes with the package.
+#[pyfunction]
+pub fn shipped() -> Vec<(&'static str, &'static str)> {
+    run::Scene::shipped().to_vec()
+}

@@ -1,0 +1,30 @@
+"""Gradient flows of energies of closed planar curves that carry embedded densities.
+
+>>> import curveflow as cf
+>>> result = cf.run(cf.Scene.shipped("circle"))
+>>> result.success
+True
+"""
+
+from importlib.metadata import version as _version
+
+from .errors import BugError, CurveflowError, SceneError, SetupError, StorageError
+from .result import Result, open
+from .running import Progress, run
+from .scene import Scene, scenes
+
+__all__ = [
+    "BugError",
+    "CurveflowError",
+    "Progress",
+    "Result",
+    "Scene",
+    "SceneError",
+    "SetupError",
+    "StorageError",
+    "open",
+    "run",
+    "scenes",
+]
+
+__version__ = _version("curveflow")

@@ -1,0 +1,24 @@
+"""Everything that Curveflow raises: one class per kind of mistake, each under a built-in class."""
+
+
+class CurveflowError(Exception):
+    """Base of all errors of this package."""
+
+
+class SceneError(CurveflowError, ValueError):
+    """A scene cannot be read or is not valid.
+
+    The message names every key at fault, its line and value, what is allowed and one thing to try.
+    """
+
+
+class SetupError(SceneError):
+    """A scene reads well, but its curve, densities and energy make no initial state."""
+
+
+class StorageError(CurveflowError, OSError):
+    """A file cannot be written, or is not a readable result file. A failed write leaves the target as it was."""
+
+
+class BugError(CurveflowError, RuntimeError):
+    """Curveflow broke an assumption of its own; please report it together with the scene."""

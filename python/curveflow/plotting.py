@@ -1,0 +1,135 @@
+"""Figures of results with matplotlib, which is imported at the first use only."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .result import Array, Result
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_BLUE, _GREEN, _PURPLE, _VERMILION = "#0072B2", "#009E73", "#A85088", "#D55E00"
+_INITIAL: dict[str, Any] = {"color": "0.5", "linewidth": 1.2, "linestyle": "--"}
+_MOST_DECADES = 1e-10
+_CONSTANT = 1e-6
+
+
+def plot(result: Result, figure: Figure | None = None) -> Figure:
+    """Draw the three panels into ``figure``, or into a new figure of pyplot, and return it.
+
+    Raises:
+        ImportError: matplotlib is missing: ``pip install "curveflow[plot]"``.
+    """
+    if figure is None:
+        figure = _pyplot().figure(figsize=(11, 6.2), layout="constrained")
+    grid = figure.add_gridspec(2, 2, width_ratios=(1.25, 1))
+    draw_curve(result, figure.add_subplot(grid[:, 0]))
+    draw_state(result, figure.add_subplot(grid[0, 1]))
+    draw_history(result, figure.add_subplot(grid[1, 1]))
+    if result.title:
+        figure.suptitle(_plain(result.title))
+    return figure
+
+
+def draw_curve(result: Result, axes: Axes, frame: int = -1) -> None:
+    """Draw the curve of one frame, coloured by its first density (or curvature), over the initial curve."""
+    _pyplot()
+    from matplotlib.collections import LineCollection
+
+    name, values = next(iter(result.density.items()), ("curvature", result.curvature))
+    curve, value = _closed(result.position[frame]), _closed(values[frame])
+    axes.plot(*_closed(result.position[0]).T, **_INITIAL, label="initial")
+    lines = LineCollection(
+        list(np.stack([curve[:-1], curve[1:]], axis=1)), linewidths=4, capstyle="round", cmap="viridis"
+    )
+    lines.set_array(0.5 * (value[:-1] + value[1:]))
+    if np.ptp(value) < _CONSTANT * np.abs(value).max():  # colours would show nothing but rounding
+        margin = 0.01 * np.abs(value).max()
+        lines.set_clim(value.min() - margin, value.max() + margin)
+    axes.add_collection(lines)
+    axes.set(xlabel="$x$", ylabel="$y$", title=f"$t$ = {result.time[frame]:.4g}")
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.autoscale_view()
+    label = "curvature $\\kappa$" if name == "curvature" else f"{_plain(name)} density $\\rho$"
+    axes.figure.colorbar(lines, ax=axes, label=label, shrink=0.8)
+    axes.legend(loc="upper right", frameon=False)
+
+
+def draw_state(result: Result, axes: Axes, frame: int = -1) -> None:
+    """Draw curvature against density with the nodal lines of the energy; without a density, against arc length."""
+    _pyplot()
+    kappa = result.curvature
+    if result.density:
+        name, rho = next(iter(result.density.items()))
+        axes.plot(_closed(rho[0]), _closed(kappa[0]), **_INITIAL, label="initial")
+        axes.plot(_closed(rho[frame]), _closed(kappa[frame]), "k", linewidth=2, label="final")
+        _draw_nodal_lines(result, name, axes)
+        axes.set(xlabel=f"{_plain(name)} density $\\rho$", ylabel="curvature $\\kappa$")
+    else:
+        axes.plot(_arc_length(result.metric[0]), _closed(kappa[0]), **_INITIAL, label="initial")
+        axes.plot(_arc_length(result.metric[frame]), _closed(kappa[frame]), _PURPLE, label="final")
+        axes.set(xlabel="arc length $\\sigma$", ylabel="curvature $\\kappa$")
+    axes.legend(fontsize="small", frameon=False)
+
+
+def draw_history(result: Result, axes: Axes) -> None:
+    """Draw energy (left) and length (right) over time, in decades of time where the run spans several."""
+    _pyplot()
+    steps = result.steps
+    if len(steps["time"]) >= len(result.time):
+        time = np.append(result.time[0], steps["time"])
+        energy = np.append(result.energy[0], steps["energy"])
+    else:
+        time, energy = result.time, result.energy
+    (left,) = axes.plot(time, energy, color=_BLUE, label="energy")
+    right_axes = axes.twinx()
+    (right,) = right_axes.plot(result.time, result.length, "--", color=_VERMILION, label="length")
+    end = float(time[-1])
+    start = max(float(np.min(time[time > 0], initial=end)), end * _MOST_DECADES)
+    if end > 10 * start > 0:
+        axes.set_xscale("log")
+        axes.set_xlim(start, end)
+    axes.set(xlabel="time $t$", ylabel="energy")
+    right_axes.set_ylabel("length", color=_VERMILION)
+    axes.legend(handles=[left, right], fontsize="small", frameon=False)
+
+
+def _draw_nodal_lines(result: Result, name: str, axes: Axes) -> None:
+    """Draw where the energy of the agents vanishes, within the limits of what is drawn already."""
+    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+    rho, kappa = np.linspace(left, right, 400), np.linspace(bottom, top, 400)
+    lines = result.scene._native.nodal_lines(rho, kappa)
+    if lines is None or lines[0] != name:
+        return
+    _, preferred, low, high = lines
+    axes.plot(rho, preferred, color=_VERMILION, label="$\\kappa_0(\\rho)$")
+    axes.plot(low, kappa, "--", color=_BLUE, label="$\\rho_-(\\kappa)$")
+    axes.plot(high, kappa, ":", color=_GREEN, label="$\\rho_+(\\kappa)$")
+    axes.set(xlim=(left, right), ylim=(bottom, top))
+
+
+def _pyplot() -> Any:
+    try:
+        import matplotlib.pyplot
+    except ImportError as error:
+        raise ImportError('plotting needs matplotlib: pip install "curveflow[plot]"') from error
+    return matplotlib.pyplot
+
+
+def _closed(values: Array) -> Array:
+    return np.concatenate([values, values[:1]])
+
+
+def _arc_length(metric: Array) -> Array:
+    """Arc length of the nodes from the first one, once around."""
+    closed = _closed(metric)
+    return np.append(0.0, np.cumsum(0.5 * (closed[:-1] + closed[1:]) / len(metric)))
+
+
+def _plain(text: str) -> str:
+    """A text in which matplotlib finds no formula."""
+    return text.replace("$", r"\$")

@@ -1,0 +1,195 @@
+"""Results: what a run leaves behind."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from functools import cached_property
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _curveflow
+from .scene import Scene
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Array = NDArray[np.float64]
+
+
+class Result:
+    """A finished or interrupted run: what it saw, how it ended and what it cost.
+
+    All arrays are read-only NumPy arrays of ``float64``, made at first use: one entry per saved frame (the first is
+    the initial state, the last the final one), and per node of the curve. Units are those of the scene.
+
+    Results come from :func:`curveflow.run` and :func:`curveflow.open`.
+    """
+
+    def __init__(self, record: _curveflow.Record, scene: Scene | None = None) -> None:
+        self._record = record
+        self._scene = scene
+
+    @property
+    def success(self) -> bool:
+        """Whether the run reached its equilibrium or end time."""
+        return self.status in ("equilibrium", "end-time")
+
+    @property
+    def status(self) -> str:
+        """Why the run stopped: ``"equilibrium"``, ``"end-time"``, ``"interrupted"`` or ``"failed"``."""
+        return self._record.status
+
+    @property
+    def message(self) -> str:
+        """One sentence on why the run stopped."""
+        return self._record.message
+
+    @property
+    def title(self) -> str:
+        """Title of the scene."""
+        return self._record.title
+
+    @cached_property
+    def scene(self) -> Scene:
+        """The scene of the run.
+
+        Raises:
+            SceneError: the scene in a result file needs a file of points that is not there.
+        """
+        return self._scene or Scene.parse(self._record.scene)
+
+    @property
+    def resolved_scene(self) -> str:
+        """The scene in TOML with every default and automatic choice filled in."""
+        return self._record.resolved_scene
+
+    @cached_property
+    def stats(self) -> Mapping[str, int | float]:
+        """Counters of work by name (steps, rejections by cause, right-hand sides, …) and ``integration_seconds``."""
+        return MappingProxyType(self._record.counters())
+
+    @cached_property
+    def time(self) -> Array:
+        """Simulated time, shape (frame,)."""
+        return self._record.values("time")
+
+    @cached_property
+    def energy(self) -> Array:
+        """Energy, shape (frame,)."""
+        return self._record.values("energy")
+
+    @cached_property
+    def energy_terms(self) -> Mapping[str, Array]:
+        """Energy of each term by name, shape (frame,); they add up to the energy."""
+        names = self._record.energy_terms
+        return MappingProxyType({name: self._record.energy_term(i) for i, name in enumerate(names)})
+
+    @cached_property
+    def dissipation(self) -> Array:
+        """Dissipation, minus the rate of change of the energy, shape (frame,)."""
+        return self._record.values("dissipation")
+
+    @cached_property
+    def energy_balance(self) -> Array:
+        """Energy - initial energy + dissipation integrated over time, shape (frame,): the error of the integration."""
+        return self._record.values("energy_balance")
+
+    @cached_property
+    def length(self) -> Array:
+        """Length of the curve, shape (frame,)."""
+        return self._record.values("length")
+
+    @cached_property
+    def area(self) -> Array:
+        """Enclosed area, positive for a counter-clockwise curve, shape (frame,)."""
+        return self._record.values("area")
+
+    @cached_property
+    def mass(self) -> Mapping[str, Array]:
+        """Mass of each density by name, its integral over arc length, shape (frame,)."""
+        names = self._record.densities
+        return MappingProxyType({name: self._record.mass(i) for i, name in enumerate(names)})
+
+    @cached_property
+    def closure_defect(self) -> Array:
+        """Gap between the ends of the curve before projection, in units of length, shape (frame,)."""
+        return self._record.values("closure_defect")
+
+    @cached_property
+    def curvature(self) -> Array:
+        """Curvature, positive on a circle, shape (frame, node)."""
+        return self._record.field("curvature")
+
+    @cached_property
+    def metric(self) -> Array:
+        """Metric: arc length per unit of the parameter s in [0, 1), shape (frame, node)."""
+        return self._record.field("metric")
+
+    @cached_property
+    def position(self) -> Array:
+        """Position (x, y) of the nodes, counter-clockwise, shape (frame, node, 2)."""
+        return self._record.position()
+
+    @cached_property
+    def normal_velocity(self) -> Array:
+        """Velocity along the outward normal, shape (frame, node)."""
+        return self._record.field("normal_velocity")
+
+    @cached_property
+    def density(self) -> Mapping[str, Array]:
+        """Each density by name, per unit of arc length, shape (frame, node)."""
+        names = self._record.densities
+        return MappingProxyType({name: self._record.density(i) for i, name in enumerate(names)})
+
+    @cached_property
+    def steps(self) -> Mapping[str, NDArray[Any]]:
+        """The log of accepted steps, arrays of shape (step,).
+
+        ``time``, ``energy`` and ``dissipation`` at the end of the step, its ``size``, the ``order`` of the method,
+        and the attempts rejected before it by cause: ``rejections_error``, ``rejections_solver``,
+        ``rejections_energy_rise`` and ``rejections_not_finite``.
+        """
+        return MappingProxyType(self._record.steps())
+
+    def plot(self, figure: Figure | None = None) -> Figure:
+        """Draw the final curve, its state, and energy and length over time, as ``curveflow plot`` does.
+
+        Args:
+            figure: where to draw; a new figure of pyplot if none is given. The panels alone, for axes of your own,
+                are the functions of :mod:`curveflow.plotting`.
+
+        Raises:
+            ImportError: matplotlib is missing: ``pip install "curveflow[plot]"``.
+        """
+        from . import plotting
+
+        return plotting.plot(self, figure)
+
+    def save(self, path: str | os.PathLike[str], replace: bool = False) -> None:
+        """Write a result file (HDF5), which :func:`curveflow.open`, h5py and xarray read.
+
+        Args:
+            path: its name.
+            replace: whether an existing file may be replaced.
+
+        Raises:
+            StorageError: the file exists or cannot be written; an existing file is then as it was.
+        """
+        self._record.save(path, replace)
+
+    def __repr__(self) -> str:
+        frames, nodes = self._record.shape
+        return f"<Result {self.title!r}: {self.status} at t = {self.time[-1]:.6g}, {frames} frames, {nodes} nodes>"
+
+
+def open(path: str | os.PathLike[str]) -> Result:
+    """Read a result file, written by :meth:`Result.save` or by the command ``curveflow run``.
+
+    Raises:
+        StorageError: the file cannot be read, is none of ours, or is damaged.
+    """
+    return Result(_curveflow.read(path))

@@ -1,0 +1,114 @@
+"""Runs: from a scene to a result."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from . import _curveflow
+from .result import Result
+from .scene import Scene
+
+
+class Progress(NamedTuple):
+    """Where a run stands after an accepted step, in the units of the scene."""
+
+    time: float
+    """Simulated time."""
+    end: float
+    """Simulated time at which the run ends at the latest."""
+    steps: int
+    """Accepted steps so far."""
+    step_size: float
+    """Size of the last step."""
+    energy: float
+    """Energy after the step."""
+    dissipation: float
+    """Dissipation, minus the rate of change of the energy, after the step."""
+    length: float
+    """Length of the curve after the step."""
+
+
+def run(
+    scene: Scene, *, progress: bool = False, callback: Callable[[Progress], object] | None = None
+) -> Result:
+    """Run a scene to its equilibrium or end time.
+
+    The interpreter lock is released meanwhile, so threads run scenes at the same time.
+
+    Ctrl-C (in the main thread) stops the run within a second: no exception is raised, and the result holds what
+    was computed up to then, with ``status == "interrupted"`` and ``success == False``. So does a failure of the
+    integration, with ``status == "failed"``: check ``result.success``.
+
+    Args:
+        scene: what to run.
+        progress: show where the run stands on standard error: a line that is kept up to date on a terminal, a line
+            every 30 s elsewhere.
+        callback: called with a :class:`Progress` after every accepted step. It stops the run by raising
+            ``StopIteration``, which ends it as Ctrl-C does; any other exception is passed on, and the run is lost.
+
+    Raises:
+        SetupError: the scene makes no initial state.
+    """
+    line = _Line() if progress else None
+    watch, interval = None, 0.0
+    if callback is not None:
+        watch = _both(callback, line) if line else callback
+    elif line:
+        watch, interval = line.show, 0.1
+    native = _with_progress(watch) if watch else None
+    try:
+        result = Result(_curveflow.run(scene._native, native, interval), scene)
+    except BaseException:
+        if line:
+            line.end("")
+        raise
+    if line:
+        line.end(f"{result.message} (t = {result.time[-1]:.6g}, {result.stats['steps']} steps)")
+    return result
+
+
+def _with_progress(watch: Callable[[Progress], object]) -> Callable[..., None]:
+    def call(*values: Any) -> None:
+        watch(Progress(*values))
+
+    return call
+
+
+def _both(callback: Callable[[Progress], object], line: _Line) -> Callable[[Progress], object]:
+    def watch(progress: Progress) -> None:
+        line.show(progress)
+        callback(progress)
+
+    return watch
+
+
+class _Line:
+    """The line that shows the progress."""
+
+    def __init__(self) -> None:
+        self.rewrites = sys.stderr.isatty()
+        self.interval = 0.1 if self.rewrites else 30.0
+        self.shown = time.monotonic()
+
+    def show(self, progress: Progress) -> None:
+        now = time.monotonic()
+        if now - self.shown >= self.interval:
+            self.shown = now
+            self.write(
+                f"t = {progress.time:.4g} of at most {progress.end:.4g}, step {progress.steps}, "
+                f"energy {progress.energy:.6g}, dissipation {progress.dissipation:.2e}"
+            )
+
+    def write(self, text: str) -> None:
+        sys.stderr.write(f"\r\x1b[K{text}" if self.rewrites else f"{text}\n")
+        sys.stderr.flush()
+
+    def end(self, text: str) -> None:
+        """Replace the line by ``text``, if there is one."""
+        if text or self.rewrites:
+            self.write(text)
+        if text and self.rewrites:
+            sys.stderr.write("\n")

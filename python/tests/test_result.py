@@ -1,0 +1,108 @@
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+import xarray
+
+import curveflow as cf
+
+VALUES = ("time", "energy", "dissipation", "energy_balance", "length", "area", "closure_defect")
+FIELDS = ("curvature", "metric", "normal_velocity")
+
+
+def test_the_membrane_reaches_its_equilibrium(membrane: cf.Result):
+    assert membrane.success
+    assert membrane.status == "equilibrium"
+    assert "equilibrium" in membrane.message
+    # With twice the nodes and a hundredth of the tolerance the energy is 5.604812.
+    assert membrane.energy[-1] == pytest.approx(5.604812, abs=1e-4)
+    # The tolerance of the scene is 1e-5.
+    assert membrane.mass["protein"][-1] == pytest.approx(membrane.mass["protein"][0], rel=1e-5)
+
+
+def test_arrays_have_the_promised_shapes(membrane: cf.Result):
+    frames, nodes = len(membrane.time), 512
+    for name in VALUES:
+        check(getattr(membrane, name), (frames,))
+    for name in FIELDS:
+        check(getattr(membrane, name), (frames, nodes))
+    check(membrane.position, (frames, nodes, 2))
+    assert sorted(membrane.energy_terms) == ["agents", "length"]
+    assert list(membrane.density) == list(membrane.mass) == ["protein"]
+    check(membrane.density["protein"], (frames, nodes))
+    check(membrane.mass["protein"], (frames,))
+    for name, values in membrane.steps.items():
+        assert values.shape == (membrane.stats["steps"],), name
+        assert not values.flags.writeable
+    assert membrane.steps["rejections_error"].sum() == membrane.stats["rejections_error"]
+
+
+def check(array: np.ndarray, shape: tuple[int, ...]) -> None:
+    assert array.shape == shape
+    assert array.dtype == np.float64
+    assert array.flags.c_contiguous
+    assert not array.flags.writeable
+    assert np.isfinite(array).all()
+
+
+def test_arrays_mean_what_their_names_say(membrane: cf.Result):
+    np.testing.assert_allclose(sum(membrane.energy_terms.values()), membrane.energy, rtol=1e-12)
+    np.testing.assert_allclose(membrane.metric.mean(axis=1), membrane.length, rtol=1e-12)
+    mass = (membrane.density["protein"] * membrane.metric).mean(axis=1)
+    np.testing.assert_allclose(mass, membrane.mass["protein"], rtol=1e-10)
+    # Chords of a curve with 512 nodes are shorter than its arcs by a part in 10^4.
+    chords = np.linalg.norm(membrane.position - np.roll(membrane.position, 1, axis=1), axis=2)
+    np.testing.assert_allclose(chords.sum(axis=1), membrane.length, rtol=1e-3)
+    assert membrane.energy is membrane.energy
+
+
+def test_saved_results_come_back(membrane: cf.Result, tmp_path: Path):
+    path = tmp_path / "out.h5"
+    membrane.save(path)
+    again = cf.open(path)
+    for name in VALUES + FIELDS + ("position",):
+        np.testing.assert_array_equal(getattr(again, name), getattr(membrane, name), err_msg=name)
+    np.testing.assert_array_equal(again.density["protein"], membrane.density["protein"])
+    for name, values in membrane.steps.items():
+        np.testing.assert_array_equal(again.steps[name], values, err_msg=name)
+    assert dict(again.stats) == dict(membrane.stats)
+    assert again.scene == membrane.scene
+    assert again.scene.text == membrane.scene.text
+    assert again.resolved_scene == membrane.resolved_scene
+    assert repr(again) == repr(membrane)
+
+
+def test_existing_files_are_kept(membrane: cf.Result, tmp_path: Path):
+    path = tmp_path / "out.h5"
+    path.write_text("precious")
+    with pytest.raises(cf.StorageError, match=r"out\.h5: already exists") as raised:
+        membrane.save(path)
+    assert isinstance(raised.value, OSError)
+    assert path.read_text() == "precious"
+    membrane.save(path, replace=True)
+    assert cf.open(path).success
+
+
+def test_foreign_files_are_refused(tmp_path: Path):
+    path = tmp_path / "text.h5"
+    path.write_text("not HDF5")
+    with pytest.raises(cf.StorageError, match="is not an HDF5 file"):
+        cf.open(path)
+    with pytest.raises(cf.StorageError, match="No such file"):
+        cf.open(tmp_path / "none.h5")
+
+
+def test_h5py_and_xarray_read_saved_results(membrane: cf.Result, tmp_path: Path):
+    path = tmp_path / "out.h5"
+    membrane.save(path)
+    with h5py.File(path) as file:
+        np.testing.assert_array_equal(file["density/protein"], membrane.density["protein"])
+        assert file.attrs["scene"] == membrane.scene.text
+        assert file.attrs["stop_reason"] == membrane.status
+    with xarray.open_dataset(path, engine="h5netcdf") as data:
+        assert data.position.dims == ("frame", "node", "component")
+        np.testing.assert_array_equal(data.curvature, membrane.curvature)
+        assert list(data.component.values) == ["x", "y"]
+    with xarray.open_dataset(path, engine="h5netcdf", group="density") as data:
+        assert data.protein.shape == membrane.density["protein"].shape

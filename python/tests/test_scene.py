@@ -1,0 +1,76 @@
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import curveflow as cf
+
+
+def test_shipped_scenes_can_be_parsed():
+    assert "three_fold" in cf.scenes()
+    for name in cf.scenes():
+        assert cf.Scene.shipped(name).title
+
+
+def test_an_unknown_shipped_scene_names_those_there_are():
+    with pytest.raises(cf.SceneError, match="'threefold'.*three_fold, "):
+        cf.Scene.shipped("threefold")
+
+
+def test_a_typo_is_reported_with_key_and_line(tmp_path: Path, circle: cf.Scene):
+    path = tmp_path / "typo.toml"
+    path.write_text(circle.text.replace("energy.bending = { rigidity", "energy.bending = { rigidty"))
+    with pytest.raises(cf.SceneError, match=r"(?s)typo\.toml.*line 4.*rigidty.*did you mean `rigidity`") as raised:
+        cf.Scene.load(path)
+    assert isinstance(raised.value, ValueError)
+    assert isinstance(raised.value, cf.CurveflowError)
+
+
+def test_a_missing_file_is_named(tmp_path: Path):
+    with pytest.raises(cf.SceneError, match=r"(?s)none\.toml.*No such file"):
+        cf.Scene.load(tmp_path / "none.toml")
+
+
+def test_values_can_be_changed(circle: cf.Scene):
+    changed = circle.with_values(
+        {
+            "title": 'A "quoted" title',
+            "accuracy.tolerance": np.float64(1e-3),
+            "accuracy.nodes": 64,
+            "time.stop_at_equilibrium": True,
+        }
+    )
+    assert changed.title == 'A "quoted" title'
+    for line in ("tolerance = 0.001", "nodes = 64", "stop_at_equilibrium = true"):
+        assert line in changed.to_toml()
+    assert circle.title == "Circle"
+
+
+def test_values_reach_densities_by_name():
+    scene = cf.Scene.shipped("three_fold").with_values({"density.protein.initial": "0.5 + 0.1*cos(2*pi*s)"})
+    assert 'initial = "0.5 + 0.1*cos(2*pi*s)"' in scene.to_toml()
+
+
+def test_a_changed_value_out_of_range_is_reported(circle: cf.Scene):
+    with pytest.raises(cf.SceneError, match="accuracy.tolerance.*-1"):
+        circle.with_values({"accuracy.tolerance": -1.0})
+    with pytest.raises(TypeError, match="accuracy.tolerance: complex"):
+        circle.with_values({"accuracy.tolerance": 1j})
+
+
+def test_scenes_compare_by_meaning_and_can_be_pickled(circle: cf.Scene):
+    again = cf.Scene.parse(circle.to_toml())
+    assert again == circle
+    assert hash(again) == hash(circle)
+    copy = pickle.loads(pickle.dumps(circle))
+    assert copy == circle
+    assert copy.text == circle.text
+    assert "Circle" in repr(circle)
+    assert circle != circle.with_values({"accuracy.nodes": 64})
+
+
+def test_a_scene_that_makes_no_state_is_a_setup_error():
+    scene = cf.Scene.shipped("three_fold").with_values({"density.protein.initial": "ln(s)"})
+    with pytest.raises(cf.SetupError, match=r"density\.protein\.initial.*-inf at node 0"):
+        cf.run(scene)

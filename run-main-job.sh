@@ -1,0 +1,18 @@
+#!/bin/sh
+# Sets everything up inside this folder and runs the main job: the three-fold membrane, to equilibrium.
+# Needs cargo (rustup), a C compiler and python3 with venv; everything else is installed into .venv.
+set -eu
+cd "$(dirname "$0")"
+
+[ -x .venv/bin/python ] || python3 -m venv .venv
+PATH="$PWD/.venv/bin:$PATH" # HDF5 is built with the cmake of .venv
+export PATH
+python -m pip install --quiet --disable-pip-version-check "cmake>=3.26"
+
+cargo build --release --package flow-cli
+mkdir -p out
+target/release/curveflow run scenes/three_fold.toml -o out/three_fold.h5 --replace
+target/release/curveflow plot out/three_fold.h5 -o out/three_fold.png --replace
+
+# The Python package; shares what cargo has built.
+python -m pip install --quiet --disable-pip-version-check ".[plot]"
