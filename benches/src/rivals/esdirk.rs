@@ -1,6 +1,6 @@
 //! ESDIRK pairs; the stages are solved by the core's Newton–Krylov iteration.
 
-use flow_core::integrator::{Counters, ErrorNorm, NewtonKrylov, NewtonOutcome, Problem};
+use flow_core::integrator::{Counters, ErrorNorm, NewtonKrylov, NewtonOutcome, Problem, Stage};
 
 use super::add_scaled;
 use super::one_step::Formula;
@@ -72,16 +72,8 @@ impl Formula for Esdirk {
             // The rate changes little from stage to stage.
             self.guess.copy_from_slice(&self.constant);
             add_scaled(&mut self.guess, gamma, &self.rates[index - 1]);
-            let outcome = self.newton.solve(
-                problem,
-                norm,
-                gamma,
-                &self.constant,
-                &self.guess,
-                &mut self.stage,
-                goal,
-                counters,
-            );
+            let stage = Stage { gamma, constant: &self.constant, goal };
+            let outcome = self.newton.solve(problem, norm, &stage, &self.guess, &mut self.stage, counters);
             if outcome == NewtonOutcome::Failed {
                 return false;
             }

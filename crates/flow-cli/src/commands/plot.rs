@@ -27,8 +27,11 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     let path = args.output.clone().unwrap_or_else(|| args.out.with_extension("png"));
     check_writable(&path, args.replace)?;
     let record = hdf5_file::read(&args.out)?;
-    let nodal_lines = nodal_polylines(&record)
-        .map(|[preferred_curvature, low, high]| picture::NodalLines { preferred_curvature, low, high });
+    let nodal_lines = nodal_polylines(&record).map(|[preferred_curvature, low, high]| picture::NodalLines {
+        preferred_curvature,
+        low,
+        high,
+    });
     let options = picture::Options { replace: args.replace, nodal_lines, ..picture::Options::default() };
     picture::plot(&record, &path, &options)?;
     print::data(&path.display().to_string())

@@ -41,7 +41,8 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     check_writable(&output, args.replace)?;
     let clock = Instant::now();
     let mut reporter = Reporter::new(args.quiet, stop_flag()?);
-    let record = run(&scene, &mut reporter).map_err(|error| CliError::InvalidScene { source: Box::new(error) })?;
+    let record =
+        run(&scene, &mut reporter).map_err(|error| CliError::InvalidScene { source: Box::new(error) })?;
     reporter.finish();
     hdf5_file::write(&record, &output, args.replace)?;
     let seconds = clock.elapsed().as_secs_f64();

@@ -119,7 +119,7 @@ impl EnergyTerm for Agents {
     }
 }
 
-/// e, e_κ and e_ρ. With u = ρ − ρ₋, v = ρ − ρ₊: F = 4u²v², F_ρ = 8uv(u + v), F_κ = −8uv(ρ₋′v + ρ₊′u).
+/// e, `e_κ` and `e_ρ`. With u = ρ − ρ₋, v = ρ − ρ₊: F = 4u²v², `F_ρ` = 8uv(u + v), `F_κ` = −8uv(ρ₋′v + ρ₊′u).
 fn add_gradient(
     field: usize,
     [epsilon, delta]: [f64; 2],
@@ -144,7 +144,7 @@ fn add_gradient(
     }
 }
 
-/// e_κκ, e_κρ and e_ρρ.
+/// `e_κκ`, `e_κρ` and `e_ρρ`.
 fn add_hessian(
     field: usize,
     [epsilon, delta]: [f64; 2],

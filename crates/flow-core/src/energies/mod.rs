@@ -1,9 +1,9 @@
-//! Terms of the energy 𝓕_h.
+//! Terms of the energy `𝓕_h`.
 //!
 //! A term is a sum of up to four parts, and says only what it has: a local density e(κ, ρ), a constant
 //! coefficient of ½∫|∇_sφ|² dσ for a field φ, a local density e(κ, ρ, ∇_sκ, ∇_sρ) at the flux points, and a
 //! function of the length. The flow (`crate::flow`) turns these parts into the gradient and the second
-//! derivative of 𝓕_h in any gauge, so no term knows about metrics or transforms. See `THEORY.md`, section 3.
+//! derivative of `𝓕_h` in any gauge, so no term knows about metrics or transforms. See `THEORY.md`, section 3.
 
 mod agents;
 mod bending;
@@ -34,7 +34,7 @@ pub struct LengthJet {
     pub second: f64,
 }
 
-/// One term of the discrete energy 𝓕_h(κ, g, ρ).
+/// One term of the discrete energy `𝓕_h(κ`, g, ρ).
 pub trait EnergyTerm: Debug + Send + Sync {
     /// Key of the term in scenes, in the output file and in Python.
     fn name(&self) -> &'static str;

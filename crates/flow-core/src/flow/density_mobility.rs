@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum DensityMobility {
-    /// −Δ_s: mass is conserved.
+    /// −`Δ_s`: mass is conserved.
     Diffusion,
 }
 

@@ -1,6 +1,6 @@
 //! The sum of the energy terms with its exact gradient and second derivative on the grid.
 //!
-//! With pointwise fields φ and length L, 𝓕_h = L⟨e⟩ + Σ c/(2L) ⟨|D₊φ|²⟩ + L⟨e′⟩ + Φ(L), ⟨·⟩ the mean over the
+//! With pointwise fields φ and length L, `𝓕_h` = L⟨e⟩ + Σ c/(2L) ⟨|D₊φ|²⟩ + L⟨e′⟩ + Φ(L), ⟨·⟩ the mean over the
 //! nodes. See `THEORY.md`, eqs. (D3)–(D5).
 
 use super::curve_fields::CurveFields;
@@ -204,7 +204,9 @@ impl EnergySum {
         for field in 0..fields {
             let range = field * modes..(field + 1) * modes;
             let spectrum = &mut self.motion_spectra[range.clone()];
-            for ((motion, v), phi) in spectrum.iter_mut().zip(&layout.spectra(v)[range]).zip(at.spectrum(field)) {
+            for ((motion, v), phi) in
+                spectrum.iter_mut().zip(&layout.spectra(v)[range]).zip(at.spectrum(field))
+            {
                 *motion = (v - phi * length_motion) / length;
             }
             self.spectrum.copy_from_slice(spectrum);

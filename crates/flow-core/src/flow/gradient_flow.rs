@@ -1,4 +1,4 @@
-//! The right-hand side −𝓚(X)∇𝓕_h and the implicit operator −𝓚 Hess 𝓕_h. See `THEORY.md`, eqs. (F6) and (F7).
+//! The right-hand side −`𝓚(X)∇𝓕_h` and the implicit operator −𝓚 Hess `𝓕_h`. See `THEORY.md`, eqs. (F6) and (F7).
 
 use super::curve_fields::CurveFields;
 use super::density_mobility::DensityMobility;
@@ -10,7 +10,7 @@ use crate::geometry::{Complex64, Layout, SpectralLayout};
 /// What an evaluation of the flow tells besides the rates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rate {
-    /// Energy 𝓕_h.
+    /// Energy `𝓕_h`.
     pub energy: f64,
     /// Dissipation ⟨f, 𝓑f⟩ + ⟨∂_ρ𝓕, 𝓖∂_ρ𝓕⟩ ≥ 0.
     pub dissipation: f64,
@@ -162,21 +162,21 @@ impl GradientFlow {
         self.map.tangential_velocity(&self.current, &self.velocity, w);
     }
 
-    /// Freezes the implicit operator −𝓚 Hess 𝓕_h at the spectral `state`.
+    /// Freezes the implicit operator −𝓚 Hess `𝓕_h` at the spectral `state`.
     pub fn spectral_linearise(&mut self, state: &[f64]) {
         let (grid, derivative) = self.map.grid_and_derivative();
         self.frozen.set(state, grid, derivative);
         self.energy.linearise(&self.frozen, &mut self.gradient);
     }
 
-    /// Product of the frozen −𝓚 Hess 𝓕_h with `v`, both spectral.
+    /// Product of the frozen −𝓚 Hess `𝓕_h` with `v`, both spectral.
     pub fn spectral_jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
         self.spectral_hessian_product(v);
         self.descend(true);
         self.write_rates(true, out);
     }
 
-    /// Product of the frozen Hess 𝓕_h with the spectral `v`, at [`GradientFlow::gradient`].
+    /// Product of the frozen Hess `𝓕_h` with the spectral `v`, at [`GradientFlow::gradient`].
     pub fn spectral_hessian_product(&mut self, v: &[f64]) {
         self.energy.hessian_product(&self.frozen, v, &mut self.gradient);
     }
@@ -188,7 +188,9 @@ impl GradientFlow {
         self.gradient.by_length = dual[layout.length_index()];
         self.descend(true);
         self.write_rates(true, out);
-        out.iter_mut().for_each(|value| *value = -*value);
+        for value in out.iter_mut() {
+            *value = -*value;
+        }
     }
 
     /// Force and normal velocity of the gradient at hand.

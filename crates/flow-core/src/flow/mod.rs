@@ -1,4 +1,4 @@
-//! The gradient flow dX/dt = −𝓚(X)∇𝓕_h with 𝓚 = A𝓑Aᵀ + 𝓖. See `THEORY.md`, section 4.
+//! The gradient flow dX/dt = −`𝓚(X)∇𝓕_h` with 𝓚 = `A𝓑Aᵀ` + 𝓖. See `THEORY.md`, section 4.
 
 mod curve_fields;
 mod density_mobility;

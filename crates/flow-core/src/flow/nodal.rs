@@ -39,13 +39,13 @@ impl GradientFlow {
         self.current_energies_by_term()
     }
 
-    /// Freezes the implicit operator −𝓚 Hess 𝓕_h at the nodal state `y`.
+    /// Freezes the implicit operator −𝓚 Hess `𝓕_h` at the nodal state `y`.
     pub fn linearise(&mut self, y: &[f64]) {
         let state = self.encoded(y);
         self.spectral_linearise(&state);
     }
 
-    /// Product of the frozen −𝓚 Hess 𝓕_h with the nodal vector `v`.
+    /// Product of the frozen −𝓚 Hess `𝓕_h` with the nodal vector `v`.
     pub fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
         let motion = self.encoded(v);
         let mut product = vec![0.0; motion.len()];
@@ -53,7 +53,7 @@ impl GradientFlow {
         self.decode(&product, out);
     }
 
-    /// Product of the frozen Hess 𝓕_h with the nodal vector `v`, dual to the state (see [`GradientFlow::gradient_at`]).
+    /// Product of the frozen Hess `𝓕_h` with the nodal vector `v`, dual to the state (see [`GradientFlow::gradient_at`]).
     pub fn hessian_product(&mut self, v: &[f64], out: &mut [f64]) {
         let motion = self.encoded(v);
         self.spectral_hessian_product(&motion);

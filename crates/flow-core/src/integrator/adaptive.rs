@@ -23,7 +23,7 @@ pub enum IntegrationError {
         "the step size fell to {step:.3e} at t = {time:.6e}, the rounding of the time ({rejections} attempts \
          rejected in a row, the last because {}); the flow may end here (a curve shrinking to a point, an \
          ill-posed energy), or the tolerance asks for more than double precision: try a larger tolerance or \
-         more nodes", reason(.cause)
+         more nodes", reason(*.cause)
     )]
     StepUnderflow { time: f64, step: f64, rejections: u64, cause: Rejection },
     /// The allowed number of steps is used up.
@@ -38,7 +38,7 @@ pub enum IntegrationError {
 }
 
 #[cold]
-fn reason(cause: &Rejection) -> &'static str {
+fn reason(cause: Rejection) -> &'static str {
     match cause {
         Rejection::Error => "the local error was too large",
         Rejection::Solver => "the implicit solve did not converge",

@@ -7,7 +7,7 @@
 use super::error_norm::ErrorNorm;
 use super::history::{History, MOST_POINTS, Weights, lagrange};
 use super::integrals::Integrals;
-use super::newton::{NewtonKrylov, NewtonOutcome};
+use super::newton::{NewtonKrylov, NewtonOutcome, Stage};
 use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
 
 const HIGHEST_ORDER: usize = 5;
@@ -187,6 +187,7 @@ impl Stepper for Bdf {
         self.step = self.step.min(largest);
     }
 
+    #[allow(clippy::misnamed_getters)] // the order of the last step; `order` is that of the next
     fn order(&self) -> usize {
         self.last_order
     }
@@ -200,16 +201,9 @@ impl Stepper for Bdf {
         let shifted: [f64; MOST_POINTS] =
             std::array::from_fn(|i| weights.value[i] - gamma * weights.derivative[i]);
         self.history.combine(&shifted, points, &mut self.constant);
-        let outcome = self.newton.solve(
-            problem,
-            &self.norm,
-            gamma,
-            &self.constant,
-            &self.predicted,
-            &mut self.candidate,
-            NEWTON_SHARE * self.tolerance,
-            counters,
-        );
+        let stage = Stage { gamma, constant: &self.constant, goal: NEWTON_SHARE * self.tolerance };
+        let outcome =
+            self.newton.solve(problem, &self.norm, &stage, &self.predicted, &mut self.candidate, counters);
         if outcome == NewtonOutcome::Failed {
             self.failures += 1;
             self.step *= 0.25;
@@ -236,9 +230,8 @@ impl Stepper for Bdf {
 
     fn polish(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> bool {
         let gamma = self.step / self.leading_coefficient();
-        let goal = NEWTON_SHARE * self.tolerance;
-        let (norm, constant, y) = (&self.norm, &self.constant, &mut self.candidate);
-        self.newton.correct(problem, norm, gamma, constant, y, goal, counters).is_some()
+        let stage = Stage { gamma, constant: &self.constant, goal: NEWTON_SHARE * self.tolerance };
+        self.newton.correct(problem, &self.norm, &stage, &mut self.candidate, counters).is_some()
     }
 
     fn candidate(&mut self) -> &mut [f64] {

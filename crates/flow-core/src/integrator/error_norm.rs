@@ -4,11 +4,11 @@ use std::ops::Range;
 
 use super::Problem;
 
-/// ‖e‖² = Σ |e_b|²/|y_b|² over the blocks b.
+/// ‖e‖² = Σ |`e_b|²/|y_b|²` over the blocks b.
 #[derive(Clone, Debug)]
 pub struct ErrorNorm {
     blocks: Vec<Range<usize>>,
-    /// 1/|y_b|² of each block.
+    /// `1/|y_b|²` of each block.
     weights: Vec<f64>,
 }
 

@@ -96,7 +96,9 @@ impl Gmres {
             if size <= 1e-14 * radius {
                 break;
             }
-            next.iter_mut().for_each(|value| *value /= size);
+            for value in next.iter_mut() {
+                *value /= size;
+            }
         }
         counters.krylov_iterations += iterations as u64;
         self.combine(iterations, r);

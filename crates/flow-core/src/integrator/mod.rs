@@ -15,7 +15,7 @@ pub use error_norm::ErrorNorm;
 pub use gmres::Gmres;
 pub use history::History;
 pub use integrals::Integrals;
-pub use newton::{NewtonKrylov, NewtonOutcome};
+pub use newton::{NewtonKrylov, NewtonOutcome, Stage};
 pub use statistics::{Counters, Rejections};
 
 /// A system dy/dt = f(y) with an implicit operator I − γJ, J ≈ f′.
@@ -24,7 +24,7 @@ pub trait Problem {
     fn size(&self) -> usize;
     /// Consecutive blocks of the state; errors are relative to the norm of each block.
     fn blocks(&self) -> Vec<std::ops::Range<usize>>;
-    /// Least square norm |y_b|² that a block's error is compared with.
+    /// Least square norm |`y_b|²` that a block's error is compared with.
     fn block_floor(&self, block: usize, y: &[f64]) -> f64;
     /// f(y) into `rate`.
     fn rate(&mut self, y: &[f64], rate: &mut [f64]);

@@ -26,6 +26,17 @@ pub enum NewtonOutcome {
     Failed,
 }
 
+/// An implicit stage y = `constant` + `gamma` f(y), to be solved to the error `goal`.
+#[derive(Clone, Copy, Debug)]
+pub struct Stage<'a> {
+    /// γ.
+    pub gamma: f64,
+    /// What does not depend on y.
+    pub constant: &'a [f64],
+    /// Error, in the norm, to which y is wanted.
+    pub goal: f64,
+}
+
 /// The iteration with its memory: age of the linearisation, rate of convergence.
 #[derive(Clone, Debug)]
 pub struct NewtonKrylov {
@@ -55,25 +66,23 @@ impl NewtonKrylov {
         }
     }
 
-    /// Solves y = `constant` + γf(y) from the guess in `y` to the error `goal` in `norm`.
+    /// Solves `stage` from `guess` into `y`.
     pub fn solve(
         &mut self,
         problem: &mut dyn Problem,
         norm: &ErrorNorm,
-        gamma: f64,
-        constant: &[f64],
+        stage: &Stage<'_>,
         guess: &[f64],
         y: &mut [f64],
-        goal: f64,
         counters: &mut Counters,
     ) -> NewtonOutcome {
         loop {
             let fresh = !self.linearised || self.linearisation_age >= OLDEST_LINEARISATION;
-            if !self.prepare(problem, guess, gamma, counters) {
+            if !self.prepare(problem, guess, stage.gamma, counters) {
                 return NewtonOutcome::Failed;
             }
             y.copy_from_slice(guess);
-            if self.iterate(problem, norm, gamma, constant, y, goal, counters) {
+            if self.iterate(problem, norm, stage, y, counters) {
                 self.linearisation_age += 1;
                 self.factorisation_age += 1;
                 return NewtonOutcome::Converged;
@@ -124,21 +133,19 @@ impl NewtonKrylov {
         &mut self,
         problem: &mut dyn Problem,
         norm: &ErrorNorm,
-        gamma: f64,
-        constant: &[f64],
+        stage: &Stage<'_>,
         y: &mut [f64],
-        goal: f64,
         counters: &mut Counters,
     ) -> bool {
         let mut previous = f64::INFINITY;
         for iteration in 0..MOST_ITERATIONS {
-            let Some(size) = self.correct(problem, norm, gamma, constant, y, goal, counters) else {
+            let Some(size) = self.correct(problem, norm, stage, y, counters) else {
                 return false;
             };
             if iteration > 0 {
                 self.contraction = (0.3 * self.contraction).max(size / previous);
             }
-            if size * self.contraction.min(1.0) <= goal {
+            if size * self.contraction.min(1.0) <= stage.goal {
                 return true;
             }
             if iteration > 0 && size > 2.0 * previous {
@@ -154,22 +161,20 @@ impl NewtonKrylov {
         &mut self,
         problem: &mut dyn Problem,
         norm: &ErrorNorm,
-        gamma: f64,
-        constant: &[f64],
+        stage: &Stage<'_>,
         y: &mut [f64],
-        goal: f64,
         counters: &mut Counters,
     ) -> Option<f64> {
         problem.rate(y, &mut self.rate);
         counters.right_hand_sides += 1;
         counters.newton_iterations += 1;
         for (((correction, rate), constant), y) in
-            self.correction.iter_mut().zip(&self.rate).zip(constant).zip(&*y)
+            self.correction.iter_mut().zip(&self.rate).zip(stage.constant).zip(&*y)
         {
-            *correction = constant + gamma * rate - y;
+            *correction = constant + stage.gamma * rate - y;
         }
-        let goals = [KRYLOV_SHARE * goal, KRYLOV_REDUCTION];
-        let solved = self.gmres.solve(problem, norm, gamma, goals, &mut self.correction, counters);
+        let goals = [KRYLOV_SHARE * stage.goal, KRYLOV_REDUCTION];
+        let solved = self.gmres.solve(problem, norm, stage.gamma, goals, &mut self.correction, counters);
         if problem.krylov_feedback(solved.iterations) {
             self.factorised_gamma = None;
         }

@@ -38,9 +38,9 @@ pub struct Counters {
     pub steps: u64,
     /// Rejected attempts, by cause.
     pub rejections: Rejections,
-    /// Evaluations of the right-hand side −𝓚∇𝓕_h.
+    /// Evaluations of the right-hand side −`𝓚∇𝓕_h`.
     pub right_hand_sides: u64,
-    /// Products of the implicit operator −𝓚 Hess 𝓕_h with a vector.
+    /// Products of the implicit operator −𝓚 Hess `𝓕_h` with a vector.
     pub jacobian_products: u64,
     /// Newton iterations.
     pub newton_iterations: u64,

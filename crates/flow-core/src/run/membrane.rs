@@ -170,7 +170,8 @@ impl Problem for Membrane {
         let layout = self.flow.spectral_layout();
         let length = y[layout.length_index()];
         let [start, angle, angle_rate] = self.placed;
-        if !(length > 0.0 && length.is_finite()) || !y.iter().sum::<f64>().is_finite() {
+        let usable = length > 0.0 && y.iter().sum::<f64>().is_finite();
+        if !usable {
             return Finish::NotFinite;
         }
         self.keep_masses(y);

@@ -23,9 +23,8 @@ pub fn nodal_polylines(record: &Record) -> Option<[Vec<(f64, f64)>; 3]> {
     let low = curvature.iter().copied().fold(f64::INFINITY, f64::min);
     let high = curvature.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let margin = MARGIN * (high - low);
-    let along = |from: f64, to: f64| {
-        (0..POINTS).map(move |k| from + (to - from) * k as f64 / (POINTS - 1) as f64)
-    };
+    let along =
+        |from: f64, to: f64| (0..POINTS).map(move |k| from + (to - from) * k as f64 / (POINTS - 1) as f64);
     let curvatures = || along(low - margin, high + margin);
     Some([
         along(0.0, 1.0).map(|rho| (rho, lines.preferred_curvature.evaluate(&[0.0, rho]))).collect(),

@@ -7,7 +7,7 @@ use crate::integrator::{Counters, Rejections};
 pub struct Frame {
     /// Simulated time.
     pub time: f64,
-    /// Energy 𝓕_h.
+    /// Energy `𝓕_h`.
     pub energy: f64,
     /// Energy of each term, in the order of [`Record::energy_terms`].
     pub energy_terms: Vec<f64>,

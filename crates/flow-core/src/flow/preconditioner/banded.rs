@@ -59,7 +59,7 @@ struct LocalPart<const F: usize, const B: usize> {
 
 impl<const F: usize, const B: usize> LocalPart<F, B> {
     fn new(nodes: usize) -> Self {
-        let coarse = nodes.min(MOST_NODES).max(8);
+        let coarse = nodes.clamp(8, MOST_NODES);
         let grid = PeriodicGrid::new(coarse);
         let fine_modes = nodes / 2 + 1;
         Self {

@@ -12,7 +12,7 @@ pub struct FourierSymbol {
     scratch: Vec<Complex64>,
 }
 
-/// Symbols of 𝓚 by field: (−Δ_s)² on the curvature, 𝓖 on the densities.
+/// Symbols of 𝓚 by field: (−`Δ_s)²` on the curvature, 𝓖 on the densities.
 pub fn mobility_symbol(flow: &GradientFlow, field: usize, minus_laplacian: f64, length: f64) -> f64 {
     match field {
         0 => (minus_laplacian / (length * length)).powi(2),

@@ -1,7 +1,7 @@
 //! Couples the length into a preconditioner of the fields, exactly for stiff functions of the length.
 //!
-//! Hess 𝓕 = H₀ + Φ″ e eᵀ with e the direction of |Γ|, so I + γ𝓚Hess 𝓕 is a rank-one change of I + γ𝓚H₀ by
-//! γΦ″ (𝓚e) eᵀ: Sherman–Morrison. The row of the length in I + γ𝓚H₀ is eᵀ + γ(H₀𝓚e)ᵀ.
+//! Hess 𝓕 = H₀ + Φ″ e eᵀ with e the direction of |Γ|, so I + `γ𝓚Hess` 𝓕 is a rank-one change of I + `γ𝓚H₀` by
+//! γΦ″ (𝓚e) eᵀ: Sherman–Morrison. The row of the length in I + `γ𝓚H₀` is eᵀ + γ(H₀𝓚e)ᵀ.
 
 use super::super::gradient_flow::GradientFlow;
 use crate::geometry::SpectralLayout;
@@ -13,9 +13,9 @@ pub struct LengthCoupling {
     layout: SpectralLayout,
     /// 𝓚e.
     direction: Vec<f64>,
-    /// H₀𝓚e, each coefficient as often as it stands in the full spectrum: dot products are means.
+    /// `H₀𝓚e`, each coefficient as often as it stands in the full spectrum: dot products are means.
     row: Vec<f64>,
-    /// P₀𝓚e.
+    /// `P₀𝓚e`.
     response: Vec<f64>,
     curvature: f64,
 }

@@ -1,4 +1,4 @@
-//! Approximate inverses of I − γJ, J = −𝓚 Hess 𝓕_h. See `THEORY.md`, section 5.
+//! Approximate inverses of I − γJ, J = −𝓚 Hess `𝓕_h`. See `THEORY.md`, section 5.
 
 mod banded;
 mod dense;
@@ -64,7 +64,8 @@ impl Preconditioner {
         let whole = matches!(inverse, FieldInverse::Dense(_));
         Self {
             inverse,
-            coupling: (length_curvature != 0.0 && !whole).then(|| LengthCoupling::new(flow.spectral_layout())),
+            coupling: (length_curvature != 0.0 && !whole)
+                .then(|| LengthCoupling::new(flow.spectral_layout())),
         }
     }
 
