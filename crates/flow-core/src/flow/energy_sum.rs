@@ -107,7 +107,9 @@ impl EnergySum {
     fn energy_of(&mut self, term: usize, at: &CurveFields) -> f64 {
         let nodes = self.layout.nodes();
         let mut density = Jet::new(nodes, self.layout.fields());
-        self.terms[term].add_density(Fields::new(nodes, at.pointwise()), &mut density);
+        if self.terms[term].has_density() {
+            self.terms[term].add_density(Fields::new(nodes, at.pointwise()), &mut density);
+        }
         let mut energy = at.length() * mean(density.value()) + self.terms[term].of_length(at.length()).value;
         for field in 0..self.layout.fields() {
             let coefficient = self.terms[term].stiffness(field);

@@ -234,6 +234,14 @@ impl GradientFlow {
                 *rate -= mu * (length * mobility.symbol(*symbol, length));
             }
         }
+        // Of the mean and of the sawtooth a real field has the real part only. The rounding of the symbols must not
+        // leave more: 𝓚 Hess does not act on the rest, which no solve could then reduce.
+        for spectrum in rates.chunks_exact_mut(modes) {
+            spectrum[0].im = 0.0;
+            if let Some(sawtooth) = grid.sawtooth_mode() {
+                spectrum[sawtooth].im = 0.0;
+            }
+        }
         out[layout.length_index()] = length_rate;
     }
 }

@@ -9,6 +9,10 @@ pub struct FourierSymbol {
     fields: usize,
     modes: usize,
     inverse: Vec<f64>,
+    laplacian: Vec<f64>,
+    /// Mean second derivatives, and the block of one mode.
+    means: Vec<f64>,
+    block: Vec<f64>,
     scratch: Vec<Complex64>,
 }
 
@@ -29,6 +33,9 @@ impl FourierSymbol {
             fields,
             modes,
             inverse: vec![0.0; fields * fields * modes],
+            laplacian: vec![0.0; modes],
+            means: vec![0.0; fields * fields],
+            block: vec![0.0; fields * fields],
             scratch: vec![Complex64::default(); fields],
         }
     }
@@ -36,18 +43,17 @@ impl FourierSymbol {
     /// Inverts the blocks at the frozen state of `flow`.
     pub fn set(&mut self, flow: &mut GradientFlow, gamma: f64) {
         let (fields, length) = (self.fields, flow.frozen().length());
-        let laplacian = flow.grid_and_derivative().1.minus_laplacian().to_vec();
+        self.laplacian.copy_from_slice(flow.grid_and_derivative().1.minus_laplacian());
         let jet = flow.energy_terms().jet();
         let mean = |a: usize, b: usize| jet.second(a, b).iter().sum::<f64>() / jet.second(a, b).len() as f64;
-        let mut means = vec![0.0; fields * fields];
+        let (means, block) = (&mut self.means, &mut self.block);
         for a in 0..fields {
             for b in 0..fields {
                 // A concave mean would make the block singular; a preconditioner may leave it out.
                 means[a * fields + b] = if a == b { mean(a, a).max(0.0) } else { mean(a, b) };
             }
         }
-        let mut block = vec![0.0; fields * fields];
-        for (mode, symbol) in laplacian.iter().enumerate() {
+        for (mode, symbol) in self.laplacian.iter().enumerate() {
             for a in 0..fields {
                 let mobility = gamma * mobility_symbol(flow, a, *symbol, length);
                 for b in 0..fields {
@@ -61,7 +67,7 @@ impl FourierSymbol {
                 }
             }
             let target = &mut self.inverse[mode * fields * fields..(mode + 1) * fields * fields];
-            if !invert(&mut block, fields, target) {
+            if !invert(block, fields, target) {
                 for a in 0..fields {
                     for b in 0..fields {
                         target[a * fields + b] = if a == b { 1.0 } else { 0.0 };

@@ -1,0 +1,115 @@
+//! Every term of the energy, and flows of it.
+
+use flow_core::energies::{Agents, Bending, EnergyTerm, Length, Local, NodalLines, Regularization};
+use flow_core::expression::Expression;
+use flow_core::flow::{DensityMobility, EnergySum, FlowMap, GradientFlow, Identity};
+use flow_core::geometry::{Layout, PeriodicGrid};
+use flow_core::operators::{Derivative, DerivativeFamily};
+
+/// A term, or all of them together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Term {
+    Bending,
+    Regularization,
+    Tension,
+    Penalty,
+    Agents,
+    Local,
+    LocalWithSlopes,
+    /// All terms; two densities, with the agents on the second.
+    Everything,
+}
+
+/// Widths ε and δ of the agents, and the target of the length penalty.
+pub const EPSILON: f64 = 0.05;
+pub const DELTA: f64 = 0.2;
+pub const PENALTY: f64 = 3.0;
+pub const TARGET: f64 = 9.0;
+
+const WITHOUT_SLOPES: &str = "0.3*kappa^2*protein + 0.1*protein^4 + exp(0.1*kappa)";
+const WITH_SLOPES: &str =
+    "0.3*kappa^2*protein + 0.1*kappa_sigma^2*(1 + protein^2) + 0.2*protein_sigma^2 + exp(0.1*kappa)";
+/// Every variable of two densities meets another one.
+const OF_TWO_DENSITIES: &str = "0.3*kappa^2*protein*lipid + 0.1*kappa_sigma^2*(1 + lipid^2) + 0.2*protein_sigma*lipid_sigma + lipid^3*kappa_sigma*protein_sigma";
+
+impl Term {
+    /// Every term.
+    pub const ALL: [Self; 8] = [
+        Self::Bending,
+        Self::Regularization,
+        Self::Tension,
+        Self::Penalty,
+        Self::Agents,
+        Self::Local,
+        Self::LocalWithSlopes,
+        Self::Everything,
+    ];
+
+    /// Densities of the states that it is tested on.
+    pub fn densities(self) -> usize {
+        match self {
+            Self::Bending | Self::Tension => 0,
+            Self::Everything => 2,
+            _ => 1,
+        }
+    }
+
+    /// The term for states of `layout`.
+    pub fn build(self, layout: Layout) -> Vec<Box<dyn EnergyTerm>> {
+        match self {
+            Self::Bending => vec![Box::new(Bending::new(0.7))],
+            Self::Regularization => vec![Box::new(Regularization::new(DELTA))],
+            Self::Tension => vec![Box::new(Length::Tension(0.6))],
+            Self::Penalty => vec![Box::new(Length::Penalty { penalty: PENALTY, target: TARGET })],
+            Self::Agents => vec![Box::new(agents(0, layout.nodes()))],
+            Self::Local => vec![Box::new(local(WITHOUT_SLOPES, &["protein"], layout.nodes()))],
+            Self::LocalWithSlopes => vec![Box::new(local(WITH_SLOPES, &["protein"], layout.nodes()))],
+            Self::Everything => {
+                let single = [Self::Bending, Self::Regularization, Self::Tension, Self::Penalty];
+                let mut all: Vec<_> = single.iter().flat_map(|term| term.build(layout)).collect();
+                all.push(Box::new(agents(1, layout.nodes())));
+                all.push(Box::new(local(OF_TWO_DENSITIES, &["lipid", "protein"], layout.nodes())));
+                all
+            }
+        }
+    }
+}
+
+/// The agents of `scenes/three_fold.toml`.
+fn agents(density: usize, nodes: usize) -> Agents {
+    let parse = |text| Expression::parse(text, &["kappa", "rho"]).expect("a formula");
+    let lines = NodalLines {
+        preferred_curvature: parse("1.3 - 2.0/0.76*(rho - 0.19)"),
+        low_density: parse("0.05 + 0.16*exp(-(kappa - 1.0)^2*ln(0.16/0.14)/0.09)"),
+        high_density: parse("0.80 + 0.18*exp(-(kappa + 0.3)^2*ln(0.18/0.15)/0.16)"),
+    };
+    Agents::new(density, EPSILON, DELTA, &lines, nodes).expect("short derivatives")
+}
+
+fn local(text: &str, densities: &[&str], nodes: usize) -> Local {
+    let names: Vec<&str> = std::iter::once("kappa").chain(densities.iter().copied()).collect();
+    let slopes: Vec<String> = names.iter().map(|name| format!("{name}_sigma")).collect();
+    let variables: Vec<&str> = names.iter().copied().chain(slopes.iter().map(String::as_str)).collect();
+    let expression = Expression::parse(text, &variables).expect("a formula");
+    Local::new(&expression, names.len(), nodes).expect("short derivatives")
+}
+
+/// The flow of `terms` with every density diffusing.
+pub fn flow_of(terms: Vec<Box<dyn EnergyTerm>>, family: DerivativeFamily, layout: Layout) -> GradientFlow {
+    let grid = PeriodicGrid::new(layout.nodes());
+    let derivative = Derivative::new(family, &grid);
+    let energy = EnergySum::new(terms, layout, &grid, &derivative);
+    let map = FlowMap::new(layout, &grid, &derivative);
+    let mobilities = vec![DensityMobility::Diffusion; layout.densities()];
+    GradientFlow::new(map, energy, layout, Box::new(Identity), mobilities)
+}
+
+/// The flow of `term`.
+pub fn flow(term: Term, family: DerivativeFamily, layout: Layout) -> GradientFlow {
+    flow_of(term.build(layout), family, layout)
+}
+
+/// Every term with every family.
+pub fn every_flow() -> impl Iterator<Item = (Term, DerivativeFamily)> {
+    Term::ALL.into_iter().flat_map(|term| DerivativeFamily::ALL.into_iter().map(move |family| (term, family)))
+}

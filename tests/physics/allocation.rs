@@ -1,0 +1,43 @@
+//! Steps do not allocate.
+
+use curveflow_tests::shipped;
+use flow_core::run::{Quiet, Simulation};
+
+/// Steps in which the method grows to its order. The log of steps doubles its room at 64 and at 128 entries.
+const WARM_UP: usize = 66;
+const STEPS: usize = 60;
+
+fn allocations(name: &str, changes: &[(&str, &str)]) -> u64 {
+    let scene = shipped(name, &[changes, &[("output.frames", "1")]].concat());
+    let mut simulation = Simulation::new(&scene).expect("an initial state");
+    for _ in 0..WARM_UP {
+        assert!(simulation.step(&mut Quiet));
+    }
+    let mut total = 0;
+    for step in 0..STEPS {
+        let mut more = false;
+        let info = allocation_counter::measure(|| more = simulation.step(&mut Quiet));
+        assert!(more);
+        if info.count_total > 0 {
+            println!(
+                "{name}, step {}: {} allocations, {} bytes",
+                WARM_UP + step,
+                info.count_total,
+                info.bytes_total
+            );
+        }
+        total += info.count_total;
+    }
+    total
+}
+
+#[test]
+fn steps_do_not_allocate() {
+    assert_eq!(allocations("three_fold", &[("accuracy.nodes", "256")]), 0);
+}
+
+#[test]
+fn steps_with_the_banded_solver_do_not_allocate() {
+    let changes = [("accuracy.nodes", "256"), ("accuracy.linear_solver", "banded")];
+    assert_eq!(allocations("three_fold", &changes), 0);
+}

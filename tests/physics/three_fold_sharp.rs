@@ -1,0 +1,17 @@
+//! The three-fold membrane with sharp fronts.
+
+use curveflow_tests::{assert_close, largest_rise, last, run, shipped};
+use flow_core::run::StopReason;
+
+#[test]
+fn sharp_fronts_land_at_the_known_energy() {
+    let record = run(&shipped("three_fold_sharp", &[]));
+    let frame = last(&record);
+    println!(
+        "energy {:.6}, length {:.6}, balance {:.1e}, {:?}",
+        frame.energy, frame.length, frame.energy_balance, record.counters
+    );
+    assert!(largest_rise(&record) <= 1e-13, "{:.1e}", largest_rise(&record));
+    assert_eq!(record.stop_reason, StopReason::Equilibrium);
+    assert_close(frame.energy, 6.5743, 2e-4);
+}
