@@ -322,7 +322,7 @@ fn all_problems_are_reported_at_once_in_the_order_of_their_lines() {
         .replace("tolerance = 1e-5", "tolerance = 2");
     let error = Scene::parse(&text, "bad.toml").unwrap_err();
     println!("{error}");
-    let lines: Vec<Option<usize>> = error.problems().iter().map(flow_core::run::Problem::line).collect();
+    let lines: Vec<Option<usize>> = error.problems().iter().map(flow_core::run::scene::Problem::line).collect();
     assert_eq!(lines, [Some(12), Some(15), Some(19), Some(22)]);
     assert!(error.to_string().starts_with("4 problems in bad.toml:\n"));
     assert_eq!(error.problems()[3].key, "accuracy.tolerance");

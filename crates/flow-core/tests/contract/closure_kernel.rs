@@ -74,7 +74,7 @@ impl Moving {
         scale * moment(tx).hypot(moment(ty)) / largest(turning_rate)
     }
 
-    /// Normal and tangential parts n·e and τ·e of the translation γ_t = e = (cos 1, sin 1), n = (τ_y, −τ_x).
+    /// Normal and tangential parts n·e and τ·e of the translation `γ_t` = e = (cos 1, sin 1), with n = (`τ_y`, −`τ_x`).
     fn translation(&self) -> [Vec<f64>; 2] {
         let ([tx, ty], [c, s]) = (self.embedding.tangent(), [1f64.cos(), 1f64.sin()]);
         let normal = (0..tx.len()).map(|i| c * ty[i] - s * tx[i]).collect();
@@ -82,7 +82,7 @@ impl Moving {
         [normal, tangential]
     }
 
-    /// Normal and tangential parts −γ·τ and γ·n of the rotation γ_t = γ^⊥.
+    /// Normal and tangential parts −γ·τ and γ·n of the rotation `γ_t` = γ^⊥.
     fn rotation(&self) -> [Vec<f64>; 2] {
         let ([tx, ty], [x, y]) = (self.embedding.tangent(), self.embedding.position());
         let normal = (0..tx.len()).map(|i| -(x[i] * tx[i] + y[i] * ty[i])).collect();
@@ -93,7 +93,7 @@ impl Moving {
     /// Largest difference of the rates under a rigid motion from what they are.
     ///
     /// The nodes move by Vn + (W − c)τ, c the mean of W, which the gauge takes out: the curve is at rest but for
-    /// the shift of its nodes, K_t = −c∂_sκ. A density stays with the normal motion: m_t = ∂_s(ρ(W − c)).
+    /// the shift of its nodes, `K_t = −c∂_sκ`. A density stays with the normal motion: `m_t = ∂_s(ρ(W − c))`.
     fn rigid_motion_error(&mut self, [v, w]: [Vec<f64>; 2]) -> f64 {
         let mut rates = self.rates(&v);
         let carried = w.iter().sum::<f64>() / w.len() as f64;

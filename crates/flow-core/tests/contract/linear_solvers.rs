@@ -101,7 +101,7 @@ fn gmres_stops_at_the_goal() {
         let mut residual = vec![0.0; size];
         system.jacobian_product(&x, &mut residual);
         for i in 0..size {
-            residual[i] = right[i] - x[i] + residual[i];
+            residual[i] += right[i] - x[i];
         }
         assert!(norm.norm(&residual) <= 1.01 * goal, "goal {goal:.0e}: {:.1e}", norm.norm(&residual));
         assert!((solved.residual - norm.norm(&residual)).abs() <= 1e-2 * solved.residual);
@@ -143,7 +143,9 @@ fn iterations(solver: LinearSolver, family: DerivativeFamily, terms: [Term; 2], 
     membrane.rate(&y, &mut r);
     // A rate has the smoothness of what Newton's method solves for.
     let scale = norm.norm(&r);
-    r.iter_mut().for_each(|value| *value /= scale);
+    for value in &mut r {
+        *value /= scale;
+    }
     let mut counters = Counters::default();
     let mut gmres = Gmres::new(r.len(), MOST_ITERATIONS);
     gmres.solve(&mut membrane, &norm, gamma, [f64::INFINITY, 1e-6], &mut r, &mut counters).iterations

@@ -1,5 +1,5 @@
 //! The transposed force against the formula of the continuum,
-//! f = −G∂_κ𝓕 − gκ∂_g𝓕 + κρ·∂_ρ𝓕 with G = −(Δ_s + κ²): the two differ by the gauge part of A, which is κ times the
+//! f = −G∂_κ𝓕 − gκ∂_g𝓕 + κρ·∂_ρ𝓕 with G = −(`Δ_s` + κ²): the two differ by the gauge part of A, which is κ times the
 //! integral of the residual of parametrisation independence, and by the error of the derivative.
 
 use flow_core::energies::{Bending, EnergyTerm, Length, Regularization};
@@ -23,9 +23,9 @@ struct Resolved {
 
 /// ∂_κ𝓕, ∂_ρ𝓕 and g∂_g𝓕 at the nodes.
 struct Gradient {
-    by_kappa: Vec<f64>,
-    by_rho: Vec<f64>,
-    by_metric: Vec<f64>,
+    kappa: Vec<f64>,
+    rho: Vec<f64>,
+    metric: Vec<f64>,
 }
 
 /// nth arc-length derivative, by Fourier.
@@ -61,23 +61,23 @@ impl Resolved {
         }
     }
 
-    /// Values of f(κ, ρ, κ_σ, ρ_σ).
+    /// Values of `f(κ, ρ, κ_σ, ρ_σ)`.
     fn map(&self, f: impl Fn(f64, f64, f64, f64) -> f64) -> Vec<f64> {
         let nodes = 0..self.kappa.len();
         nodes.map(|i| f(self.kappa[i], self.rho[i], self.kappa_slope[i], self.rho_slope[i])).collect()
     }
 
-    /// Δ_s, applied with the exact slopes.
+    /// `Δ_s`, applied with the exact slopes.
     fn laplacian(&self, values: &[f64]) -> Vec<f64> {
         slope(values, self.length, 2)
     }
 
     fn force(&self, gradient: &Gradient) -> Vec<f64> {
-        let bend = self.laplacian(&gradient.by_kappa);
+        let bend = self.laplacian(&gradient.kappa);
         let value = |i: usize| {
             let kappa = self.kappa[i];
-            bend[i] + kappa * kappa * gradient.by_kappa[i] - kappa * gradient.by_metric[i]
-                + kappa * self.rho[i] * gradient.by_rho[i]
+            bend[i] + kappa * kappa * gradient.kappa[i] - kappa * gradient.metric[i]
+                + kappa * self.rho[i] * gradient.rho[i]
         };
         (0..self.kappa.len()).map(value).collect()
     }
@@ -86,9 +86,9 @@ impl Resolved {
     fn of_elastica(&self) -> Gradient {
         let stretch = self.laplacian(&self.kappa);
         Gradient {
-            by_kappa: combine(&self.kappa, &stretch, |kappa, stretch| kappa - DELTA * stretch),
-            by_rho: vec![0.0; self.rho.len()],
-            by_metric: self.map(|kappa, _, slope, _| 0.5 * kappa * kappa - 0.5 * DELTA * slope * slope + 0.6),
+            kappa: combine(&self.kappa, &stretch, |kappa, stretch| kappa - DELTA * stretch),
+            rho: vec![0.0; self.rho.len()],
+            metric: self.map(|kappa, _, slope, _| 0.5 * kappa * kappa - 0.5 * DELTA * slope * slope + 0.6),
         }
     }
 
@@ -102,21 +102,21 @@ impl Resolved {
             [0.05 + low, low_slope, 0.80 + high, high_slope]
         };
         let preferred = |rho: f64| 1.3 - 2.0 / 0.76 * (rho - 0.19);
-        let by_kappa = self.map(|kappa, rho, _, _| {
+        let of_kappa = self.map(|kappa, rho, _, _| {
             let [low, low_slope, high, high_slope] = well(kappa);
             let (u, v) = (rho - low, rho - high);
             (kappa - preferred(rho)) / DELTA - 8.0 * u * v * (low_slope * v + high_slope * u) / EPSILON
         });
-        let by_rho = self.map(|kappa, rho, _, _| {
+        let of_rho = self.map(|kappa, rho, _, _| {
             let [low, _, high, _] = well(kappa);
             let (u, v) = (rho - low, rho - high);
             (kappa - preferred(rho)) * (2.0 / 0.76) / DELTA + 8.0 * u * v * (u + v) / EPSILON
         });
         let tension = PENALTY * (self.length - TARGET);
         Gradient {
-            by_kappa: combine(&by_kappa, &self.laplacian(&self.kappa), |p, stretch| p - DELTA * stretch),
-            by_rho: combine(&by_rho, &self.laplacian(&self.rho), |p, stretch| p - EPSILON * stretch),
-            by_metric: self.map(|kappa, rho, kappa_slope, rho_slope| {
+            kappa: combine(&of_kappa, &self.laplacian(&self.kappa), |p, stretch| p - DELTA * stretch),
+            rho: combine(&of_rho, &self.laplacian(&self.rho), |p, stretch| p - EPSILON * stretch),
+            metric: self.map(|kappa, rho, kappa_slope, rho_slope| {
                 let [low, _, high, _] = well(kappa);
                 let potential = 4.0 * ((rho - low) * (rho - high)).powi(2) / EPSILON;
                 let bending = 0.5 * (kappa - preferred(rho)).powi(2) / DELTA;
@@ -130,13 +130,13 @@ impl Resolved {
     fn of_local(&self) -> Gradient {
         let flux_of_kappa = self.map(|_, rho, slope, _| 0.2 * slope * (1.0 + rho * rho));
         let flux_of_rho = self.map(|_, _, _, slope| 0.4 * slope);
-        let by_kappa = self.map(|kappa, rho, _, _| 0.6 * kappa * rho + 0.1 * (0.1 * kappa).exp());
-        let by_rho = self.map(|kappa, rho, slope, _| 0.3 * kappa * kappa + 0.2 * rho * slope * slope);
+        let of_kappa = self.map(|kappa, rho, _, _| 0.6 * kappa * rho + 0.1 * (0.1 * kappa).exp());
+        let of_rho = self.map(|kappa, rho, slope, _| 0.3 * kappa * kappa + 0.2 * rho * slope * slope);
         let divergence = |flux: &[f64]| slope(flux, self.length, 1);
         Gradient {
-            by_kappa: combine(&by_kappa, &divergence(&flux_of_kappa), |p, divergence| p - divergence),
-            by_rho: combine(&by_rho, &divergence(&flux_of_rho), |p, divergence| p - divergence),
-            by_metric: self.map(|kappa, rho, kappa_slope, rho_slope| {
+            kappa: combine(&of_kappa, &divergence(&flux_of_kappa), |p, divergence| p - divergence),
+            rho: combine(&of_rho, &divergence(&flux_of_rho), |p, divergence| p - divergence),
+            metric: self.map(|kappa, rho, kappa_slope, rho_slope| {
                 0.3 * kappa * kappa * rho + (0.1 * kappa).exp()
                     - 0.1 * kappa_slope * kappa_slope * (1.0 + rho * rho)
                     - 0.2 * rho_slope * rho_slope

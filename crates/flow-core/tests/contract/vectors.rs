@@ -31,7 +31,7 @@ pub fn moved(y: &[f64], factor: f64, v: &[f64]) -> Vec<f64> {
     y.iter().zip(v).map(|(y, v)| y + factor * v).collect()
 }
 
-/// Numbers in [−1, 1) from a seed (the finaliser of SplitMix64).
+/// Numbers in [−1, 1) from a seed (the finaliser of `SplitMix64`).
 pub fn noise(seed: u64, count: usize) -> Vec<f64> {
     let value = |i: usize| {
         let mut z = seed.wrapping_add((i as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
