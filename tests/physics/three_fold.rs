@@ -11,8 +11,11 @@ const ENERGY_ROUNDING: f64 = 1e-13;
 /// Restored after every step; a sum of a few hundred parts.
 const MASS: f64 = 1e-13;
 
-/// Error of ∫ dissipation dt, nearly all of the initial energy, at tolerance 1e-5 (measured: up to 1.7e-5).
-const BALANCE: f64 = 2e-5;
+/// Error of ∫ dissipation dt, nearly all of the initial energy, at tolerance 1e-5 on nodes that resolve the fronts.
+const BALANCE: f64 = 1e-5;
+
+/// The same where they do not, and the flow is stiffer (measured: 1.6e-5 with 128 nodes).
+const UNRESOLVED_BALANCE: f64 = 2e-5;
 
 /// What every run keeps, whatever its resolution.
 fn assert_structure(record: &Record) {
@@ -25,7 +28,8 @@ fn assert_structure(record: &Record) {
         assert!((turning - 1.0).abs() <= 1e-12, "t = {time}: turning number {turning}");
         assert_close(frame.mass[0], first.mass[0], MASS);
         let balance = frame.energy_balance.abs() / first.energy;
-        assert!(balance <= BALANCE, "t = {time}: balance {balance:.1e}");
+        let bound = if frame.curvature.len() >= 512 { BALANCE } else { UNRESOLVED_BALANCE };
+        assert!(balance <= bound, "t = {time}: balance {balance:.1e}");
         assert!(gap(frame) <= 1e-12 * frame.length, "t = {time}: gap {:.1e}", gap(frame));
     }
 }

@@ -6,7 +6,7 @@
 use super::curve_fields::CurveFields;
 use super::slope_energy::SlopeEnergy;
 use crate::energies::{EnergyTerm, Fields, Jet, LengthJet, Order, TermFault};
-use crate::geometry::{Complex64, Layout, PeriodicGrid, SpectralLayout};
+use crate::geometry::{Complex64, Layout, PeriodicGrid, SpectralLayout, dot};
 use crate::operators::Derivative;
 
 /// Gradient of the energy, as the flow map takes it.
@@ -28,6 +28,8 @@ pub struct EnergySum {
     stiffness: Vec<f64>,
     jet: Jet,
     slopes: Option<SlopeEnergy>,
+    /// ⟨|D₊φ|²⟩ of each field at the linearisation.
+    frozen_slope_squares: Vec<f64>,
     motion: Vec<f64>,
     motion_spectra: Vec<Complex64>,
     product: Vec<f64>,
@@ -58,6 +60,7 @@ impl EnergySum {
             stiffness,
             jet: Jet::new(nodes, fields),
             slopes,
+            frozen_slope_squares: vec![0.0; fields],
             motion: vec![0.0; nodes * fields],
             motion_spectra: vec![Complex64::default(); grid.modes() * fields],
             product: vec![0.0; nodes],
@@ -129,12 +132,14 @@ impl EnergySum {
     }
 
     fn slope_product(&self, a: &[Complex64], b: &[Complex64]) -> f64 {
-        let full: f64 = a
-            .iter()
-            .zip(b)
-            .zip(self.derivative.minus_laplacian())
-            .map(|((a, b), symbol)| symbol * (a.re * b.re + a.im * b.im))
-            .sum();
+        let products = a.iter().zip(b).zip(self.derivative.minus_laplacian());
+        // Two sums, so that one addition does not wait for the other.
+        let (mut real, mut imaginary) = (0.0, 0.0);
+        for ((a, b), symbol) in products {
+            real += symbol * (a.re * b.re);
+            imaginary += symbol * (a.im * b.im);
+        }
+        let full = real + imaginary;
         // The mean has no slope; the sawtooth, present once, was counted like the others.
         let once = self
             .grid
@@ -145,7 +150,7 @@ impl EnergySum {
 
     fn mean_product(&self, a: &[Complex64], b: &[Complex64]) -> f64 {
         let product = |m: usize| a[m].re * b[m].re + a[m].im * b[m].im;
-        let full: f64 = a.iter().zip(b).map(|(a, b)| a.re * b.re + a.im * b.im).sum();
+        let full = dot(bytemuck::cast_slice(a), bytemuck::cast_slice(b));
         2.0 * full - product(0) - self.grid.sawtooth_mode().map_or(0.0, product)
     }
 
@@ -180,6 +185,9 @@ impl EnergySum {
                     *p += phi * (scale * symbol);
                 }
                 let square = self.slope_square(phi);
+                if order >= Order::Hessian {
+                    self.frozen_slope_squares[field] = square;
+                }
                 energy += 0.5 * coefficient / length * square;
                 by_length -= 0.5 * scale * square;
             }
@@ -236,7 +244,8 @@ impl EnergySum {
                     *p += (motion - phi * shrink) * (scale * symbol);
                 }
                 let cross = self.slope_product(phi, &self.motion_spectra[field * modes..(field + 1) * modes]);
-                by_length += scale * (self.slope_square(phi) / length * length_motion - 2.0 * cross);
+                by_length +=
+                    scale * (self.frozen_slope_squares[field] / length * length_motion - 2.0 * cross);
             }
         }
         if let Some(slopes) = &mut self.slopes {

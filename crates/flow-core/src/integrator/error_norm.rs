@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::Problem;
+use crate::geometry::dot;
 
 /// ‖e‖² = Σ |`e_b|²/|y_b|²` over the blocks b.
 #[derive(Clone, Debug)]
@@ -40,22 +41,6 @@ impl ErrorNorm {
     pub fn norm(&self, e: &[f64]) -> f64 {
         self.product(e, e).sqrt()
     }
-}
-
-const LANES: usize = 8;
-
-/// Sum of products in eight independent lanes, which the compiler turns into vector registers.
-#[must_use]
-pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut lanes = [0.0; LANES];
-    let (a_chunks, b_chunks) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
-    let rest: f64 = a_chunks.remainder().iter().zip(b_chunks.remainder()).map(|(a, b)| a * b).sum();
-    for (a, b) in a_chunks.zip(b_chunks) {
-        for k in 0..LANES {
-            lanes[k] += a[k] * b[k];
-        }
-    }
-    rest + ((lanes[0] + lanes[4]) + (lanes[1] + lanes[5])) + ((lanes[2] + lanes[6]) + (lanes[3] + lanes[7]))
 }
 
 /// y += factor × x.

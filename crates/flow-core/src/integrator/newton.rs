@@ -5,9 +5,9 @@ use super::gmres::Gmres;
 use super::{Counters, Problem};
 
 const MOST_ITERATIONS: usize = 4;
-const MOST_KRYLOV: usize = 30;
+const MOST_KRYLOV: usize = 60;
 /// Linear residuals are reduced to this part of the goal: their square enters the dissipation.
-const KRYLOV_SHARE: f64 = 0.2;
+const KRYLOV_SHARE: f64 = 0.5;
 /// Each linear solve reduces its residual at least by this factor, so that Newton errors fade with the flow.
 const KRYLOV_REDUCTION: f64 = 0.1;
 /// γ may change by this factor before the preconditioner is factorised again.

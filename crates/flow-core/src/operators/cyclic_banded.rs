@@ -158,7 +158,7 @@ impl<const B: usize> CyclicBanded<B> {
         let (body, border) = x.split_at_mut(core);
         let mut tail = [0.0; B];
         tail.copy_from_slice(border);
-        // Forward substitution keeps the last B solved entries in registers.
+        // Both substitutions keep the last B solved entries in registers.
         let mut window = [0.0; B];
         for ((value, lower), bottom) in body.iter_mut().zip(&self.lower).zip(&self.bottom) {
             let mut sum = *value;
@@ -168,7 +168,9 @@ impl<const B: usize> CyclicBanded<B> {
             for b in 0..B {
                 tail[b] -= bottom[b] * sum;
             }
-            window.copy_within(1.., 0);
+            for k in 1..B {
+                window[k - 1] = window[k];
+            }
             window[B - 1] = sum;
             *value = sum;
         }
@@ -181,11 +183,14 @@ impl<const B: usize> CyclicBanded<B> {
             for b in 0..B {
                 sum -= right[b] * tail[b];
             }
-            for k in 0..B {
+            // The newest value last, so that a row waits for one product only.
+            for k in (0..B).rev() {
                 sum -= upper[k] * window[k];
             }
             sum *= inverse;
-            window.copy_within(..B - 1, 1);
+            for k in (1..B).rev() {
+                window[k] = window[k - 1];
+            }
             window[0] = sum;
             *value = sum;
         }

@@ -4,7 +4,7 @@
 //! γΦ″ (𝓚e) eᵀ: Sherman–Morrison. The row of the length in I + `γ𝓚H₀` is eᵀ + γ(H₀𝓚e)ᵀ.
 
 use super::super::gradient_flow::GradientFlow;
-use crate::geometry::SpectralLayout;
+use crate::geometry::{SpectralLayout, dot};
 
 /// The rank-one correction.
 #[derive(Clone, Debug)]
@@ -59,7 +59,7 @@ impl LengthCoupling {
     /// Completes x = P₀r by the row of the length.
     fn couple_row(&self, x: &mut [f64]) {
         let last = x.len() - 1;
-        let sum: f64 = self.row[..last].iter().zip(&x[..last]).map(|(row, x)| row * x).sum();
+        let sum = dot(&self.row[..last], &x[..last]);
         let diagonal = 1.0 + self.gamma * self.row[last].max(0.0);
         x[last] = (x[last] - self.gamma * sum) / diagonal;
     }

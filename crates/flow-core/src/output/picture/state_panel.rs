@@ -20,24 +20,20 @@ pub(super) fn draw<DB: DrawingBackend>(
     last: &Frame,
     lines: Option<&NodalLines>,
 ) -> Drawn<DB> {
-    match (first.density.first(), last.density.first()) {
-        (Some(from), Some(to)) => {
-            let (from, to) = (pairs(from, &first.curvature), pairs(to, &last.curvature));
-            draw_plane(page, frame, &from, &to, lines)
-        }
-        _ => draw_curvature(page, frame, first, last),
+    match last.density.first() {
+        Some(density) => draw_plane(page, frame, &pairs(density, &last.curvature), lines),
+        None => draw_curvature(page, frame, first, last),
     }
 }
 
 fn draw_plane<DB: DrawingBackend>(
     page: &Page<DB>,
     frame: Rect,
-    from: &[[f64; 2]],
     to: &[[f64; 2]],
     lines: Option<&NodalLines>,
 ) -> Drawn<DB> {
     // Room for the nodal lines around the state, which ends on them.
-    let [x, y] = [0, 1].map(|k| Axis::around(from.iter().chain(to).map(move |point| point[k]), 0.15));
+    let [x, y] = [0, 1].map(|k| Axis::around(to.iter().map(move |point| point[k]), 0.15));
     let panel = Panel::new(page, frame, (x, "density ρ"), (y, "curvature κ"))?;
     let mut entries = vec![(FINAL, "final")];
     if let Some(lines) = lines {
@@ -53,7 +49,6 @@ fn draw_plane<DB: DrawingBackend>(
             }
         }
     }
-    panel.line(page, from.iter().copied(), INITIAL)?;
     panel.line(page, to.iter().copied(), FINAL)?;
     panel.draw_frame(page)?;
     page.legend([frame.left, frame.top - 24.0], &entries)
