@@ -41,7 +41,7 @@ pub fn lagrange(time: f64, times: &[f64]) -> Weights {
 }
 
 impl History {
-    /// Room for [`MOST_POINTS`] states of `size` entries.
+    /// Room for a few states of `size` entries.
     #[must_use]
     pub fn new(size: usize) -> Self {
         Self { times: vec![0.0; MOST_POINTS], states: vec![vec![0.0; size]; MOST_POINTS], filled: 0 }
