@@ -171,11 +171,11 @@ fn energy_terms(
     }
     if let Some(agents) = &energy.agents {
         let term = self::agents(scene, agents, nodes);
-        terms.push(Box::new(term.map_err(|source| SetupError::Expression { key: "energy.agents", source })?));
+        terms.push(Box::new(term.map_err(|fault| SetupError::Expression { key: "energy.agents", fault })?));
     }
     if let Some(local) = &energy.local {
         let term = self::local(scene, local, nodes)
-            .map_err(|source| SetupError::Expression { key: "energy.local.expression", source });
+            .map_err(|fault| SetupError::Expression { key: "energy.local.expression", fault });
         terms.push(Box::new(term?));
     }
     Ok(terms)

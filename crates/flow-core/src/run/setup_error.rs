@@ -10,7 +10,7 @@ use crate::geometry::shapes::ShapeError;
 pub enum SetupError {
     /// The curve is not usable.
     #[error("`curve`: {0}")]
-    Curve(#[from] ShapeError),
+    Curve(ShapeError),
     /// The curve turns another number of times.
     #[error(
         "`curve.turning_number` = {expected}, but the tangent of the curve turns {found} times; set \
@@ -36,8 +36,8 @@ pub enum SetupError {
     )]
     DensityNotFinite { density: String, node: usize, parameter: f64, value: f64 },
     /// A derivative of an expression is too large.
-    #[error("`{key}`: {source}")]
-    Expression { key: &'static str, source: ExpressionError },
+    #[error("`{key}`: {fault}")]
+    Expression { key: &'static str, fault: ExpressionError },
     /// The energy or its gradient is NaN or infinite on the initial data.
     #[error(
         "the energy term `{term}` is not finite on the initial data: its value is {value}; check its expressions on \
@@ -45,6 +45,13 @@ pub enum SetupError {
     )]
     EnergyNotFinite { term: String, value: f64, low: f64, high: f64 },
     /// A term refuses the initial data.
-    #[error("{0}")]
+    #[error(transparent)]
     Term(#[from] crate::energies::TermFault),
+}
+
+// Not a `source`: the message holds all of it.
+impl From<ShapeError> for SetupError {
+    fn from(error: ShapeError) -> Self {
+        Self::Curve(error)
+    }
 }
