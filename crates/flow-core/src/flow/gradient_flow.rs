@@ -65,11 +65,6 @@ impl GradientFlow {
         self.layout
     }
 
-    /// The terms of the energy.
-    pub fn energy_sum(&mut self) -> &mut EnergySum {
-        &mut self.energy
-    }
-
     /// The terms of the energy, to read.
     #[must_use]
     pub fn energy_terms(&self) -> &EnergySum {

@@ -9,12 +9,6 @@ pub fn enclosed_area(position: [&[f64]; 2], tangent: [&[f64]; 2], length: f64) -
     0.5 * length * sum / nodes as f64
 }
 
-/// Root of the mean square of nodal values.
-#[must_use]
-pub fn root_mean_square(values: &[f64]) -> f64 {
-    (values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64).sqrt()
-}
-
 const LANES: usize = 8;
 
 /// Sum of products in eight independent lanes, which the compiler turns into vector registers.

@@ -14,6 +14,6 @@ mod state;
 pub use closure::{Closure, ClosureError};
 pub use embedding::{Embedding, Placement};
 pub use grid::{Complex64, PeriodicGrid};
-pub use measures::{dot, enclosed_area, root_mean_square};
+pub use measures::{dot, enclosed_area};
 pub use spectral::SpectralLayout;
 pub use state::{Layout, StateRef};

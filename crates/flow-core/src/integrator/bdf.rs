@@ -43,7 +43,6 @@ pub struct Bdf {
     constant: Vec<f64>,
     candidate: Vec<f64>,
     difference: Vec<f64>,
-    candidate_error: f64,
 }
 
 impl Bdf {
@@ -83,7 +82,6 @@ impl Bdf {
             constant: vec![0.0; size],
             candidate: vec![0.0; size],
             difference: vec![0.0; size],
-            candidate_error: 0.0,
         }
     }
 
@@ -215,10 +213,10 @@ impl Stepper for Bdf {
         {
             *difference = y - predicted;
         }
-        self.candidate_error = self.error_factor() * self.norm.norm(&self.difference);
-        if self.candidate_error > self.tolerance {
+        let error = self.error_factor() * self.norm.norm(&self.difference);
+        if error > self.tolerance {
             self.failures += 1;
-            let growth = self.growth(self.candidate_error, self.order, 2.0);
+            let growth = self.growth(error, self.order, 2.0);
             self.step *= growth.clamp(0.2, 0.9);
             if self.failures > 2 && self.order > 1 {
                 self.order -= 1;
