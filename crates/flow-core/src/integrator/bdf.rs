@@ -16,7 +16,7 @@ const HIGHEST_ORDER: usize = 5;
 const LOCAL_SHARE: f64 = 2.0;
 /// Newton's method is solved to this part of the local tolerance: the square of its error, weighted by the
 /// stiffness, enters the dissipation and with it the energy balance.
-const NEWTON_SHARE: f64 = 0.05;
+const NEWTON_SHARE: f64 = 0.2;
 
 /// Safety factors on the error of order k − 1, k, k + 1: a change of order must pay.
 const BIAS: [f64; 3] = [4.0, 4.0, 6.0];

@@ -13,9 +13,9 @@ const KRYLOV_REDUCTION: f64 = 0.1;
 /// γ may change by this factor before the preconditioner is factorised again.
 const GAMMA_DRIFT: f64 = 1.35;
 /// Accepted steps after which the linearisation is renewed in any case.
-const OLDEST_LINEARISATION: usize = 8;
+const OLDEST_LINEARISATION: usize = 1;
 /// Accepted steps after which the preconditioner is renewed in any case.
-const OLDEST_FACTORISATION: usize = 30;
+const OLDEST_FACTORISATION: usize = 5;
 
 /// How an iteration ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,7 +107,7 @@ impl NewtonKrylov {
             problem.linearise(guess);
             self.linearised = true;
             self.linearisation_age = 0;
-            self.contraction = 1.0;
+            self.contraction = 0.02;
         }
         let serves = self.factorised_gamma.is_some_and(|old| {
             let ratio = gamma / old;

@@ -16,6 +16,10 @@ use crate::operators::{CyclicBanded, FactorisationError};
 /// More nodes make the assembled sixth-order band inaccurate, and buy nothing.
 const MOST_NODES: usize = 1024;
 
+/// A and B of the compact fourth-order Laplacian A⁻¹B.
+const MASS: [f64; 3] = [1.0 / 12.0, 10.0 / 12.0, 1.0 / 12.0];
+const DIFFERENCE: [f64; 3] = [1.0, -2.0, 1.0];
+
 /// A banded approximate inverse acting on spectra.
 pub trait Banded: Debug + Send {
     /// Number of modes treated.
@@ -30,9 +34,9 @@ pub trait Banded: Debug + Send {
 pub fn build(layout: Layout) -> Option<Box<dyn Banded>> {
     match layout.fields() {
         1 => Some(Box::new(LocalPart::<1, 3>::new(layout.nodes()))),
-        2 => Some(Box::new(LocalPart::<2, 6>::new(layout.nodes()))),
-        3 => Some(Box::new(LocalPart::<3, 9>::new(layout.nodes()))),
-        4 => Some(Box::new(LocalPart::<4, 12>::new(layout.nodes()))),
+        2 => Some(Box::new(LocalPart::<2, 7>::new(layout.nodes()))),
+        3 => Some(Box::new(LocalPart::<3, 11>::new(layout.nodes()))),
+        4 => Some(Box::new(LocalPart::<4, 15>::new(layout.nodes()))),
         _ => None,
     }
 }
@@ -45,8 +49,10 @@ struct LocalPart<const F: usize, const B: usize> {
     fine_modes: usize,
     grid: PeriodicGrid,
     matrix: CyclicBanded<B>,
-    /// Root of the ratio of the symbols, by field and mode.
-    correction: Vec<f64>,
+    /// Factors on the right-hand sides and on the solutions, by field and mode: powers of A, and the root of
+    /// the ratio of the symbols.
+    before: Vec<f64>,
+    after: Vec<f64>,
     /// Coefficients on the coarse grid: fields, then second derivatives.
     coefficients: Vec<f64>,
     gradient_rows: Vec<[[Row<F>; 3]; F]>,
@@ -65,7 +71,8 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         Self {
             fine_modes,
             matrix: CyclicBanded::new(coarse * F),
-            correction: vec![1.0; F * grid.modes()],
+            before: vec![1.0; F * grid.modes()],
+            after: vec![1.0; F * grid.modes()],
             coefficients: vec![0.0; (F + F * (F + 1) / 2) * coarse],
             gradient_rows: vec![[[[0.0; F]; 3]; F]; coarse],
             velocity_rows: vec![[[0.0; F]; 5]; coarse],
@@ -126,10 +133,13 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
             for mode in 0..modes.min(self.fine_modes) {
                 let exact = flow.grid_and_derivative().1.minus_laplacian()[mode];
                 let half = 0.5 * TAU * mode as f64 / coarse as f64;
-                let difference = (2.0 * coarse as f64 * half.sin()).powi(2);
+                let mass = 1.0 - half.sin().powi(2) / 3.0;
+                let difference = (2.0 * coarse as f64 * half.sin()).powi(2) / mass;
                 let ratio = Self::diagonal_symbol(flow, field, mean, gamma, difference)
                     / Self::diagonal_symbol(flow, field, mean, gamma, exact);
-                self.correction[field * modes + mode] = ratio.sqrt();
+                let power = if field == 0 { mass * mass } else { mass };
+                self.before[field * modes + mode] = power * ratio.sqrt();
+                self.after[field * modes + mode] = mass * ratio.sqrt();
             }
         }
     }
@@ -139,40 +149,34 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         self.coefficients[(F + high * (high + 1) / 2 + low) * self.grid.nodes() + i]
     }
 
-    /// Stencils of the gradient p = Hess·φ over the nodes i−1, i, i+1, and of the velocity
-    /// V = Δp₀ + κΣφp over i−2 … i+2.
+    /// Stencils of the gradient p = Hess·Aw over the nodes i−1, i, i+1, and of the velocity
+    /// AV = Bp₀ + A κΣφp over i−2 … i+2.
     fn set_stencils(&mut self, stiffness: &[f64], scale: f64) {
         let nodes = self.grid.nodes();
+        let difference = DIFFERENCE.map(|weight| scale * weight);
         for i in 0..nodes {
             for f in 0..F {
-                let mut stencil = [[0.0; F]; 3];
-                for g in 0..F {
-                    stencil[1][g] = self.second(i, f, g);
+                for k in 0..3 {
+                    let mut entries = [0.0; F];
+                    for g in 0..F {
+                        entries[g] = MASS[k] * self.second(i, f, g);
+                    }
+                    entries[f] -= difference[k] * stiffness[f];
+                    self.gradient_rows[i][f][k] = entries;
                 }
-                let c = scale * stiffness[f];
-                stencil[0][f] -= c;
-                stencil[1][f] += 2.0 * c;
-                stencil[2][f] -= c;
-                self.gradient_rows[i][f] = stencil;
             }
         }
         for i in 0..nodes {
-            let kappa = self.coefficients[i];
             let mut stencil = [[0.0; F]; 5];
-            let neighbours = [(i + nodes - 1) % nodes, i, (i + 1) % nodes];
-            for (shift, (node, weight)) in neighbours.iter().zip([1.0, -2.0, 1.0]).enumerate() {
-                let p = &self.gradient_rows[*node][0];
-                for k in 0..3 {
-                    for g in 0..F {
-                        stencil[shift + k][g] += scale * weight * p[k][g];
-                    }
-                }
-            }
-            for f in 0..F {
-                let factor = kappa * self.coefficients[f * nodes + i];
-                for k in 0..3 {
-                    for g in 0..F {
-                        stencil[1 + k][g] += factor * self.gradient_rows[i][f][k][g];
+            for (shift, node) in neighbours(i, nodes).into_iter().enumerate() {
+                let kappa = MASS[shift] * self.coefficients[node];
+                for f in 0..F {
+                    let bend = if f == 0 { difference[shift] } else { 0.0 };
+                    let factor = bend + kappa * self.coefficients[f * nodes + node];
+                    for k in 0..3 {
+                        for g in 0..F {
+                            stencil[shift + k][g] += factor * self.gradient_rows[node][f][k][g];
+                        }
                     }
                 }
             }
@@ -180,34 +184,42 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         }
     }
 
-    /// Fills I − γJ: κ̇ = −ΔV − κ²V, ρ̇ = −κρV + 𝓖-part Δp.
+    /// Fills I − γJ for φ = Aw: A²·(κ̇ = −ΔV − κ²V) and A·(ρ̇ = −κρV + 𝓖-part Δp).
     fn fill(&mut self, gamma: f64, scale: f64) {
         let nodes = self.grid.nodes();
         self.matrix.clear();
+        let (square, cube) = (convolve::<3, 5>(&MASS), convolve::<5, 7>(&convolve::<3, 5>(&MASS)));
         for i in 0..nodes {
-            let kappa = self.coefficients[i];
-            let neighbours = [(i + nodes - 1) % nodes, i, (i + 1) % nodes];
             for f in 0..F {
                 let mut row = [[0.0; F]; 7];
-                row[3][f] = 1.0;
-                let damping = gamma * kappa * self.coefficients[f * nodes + i];
-                for k in 0..5 {
-                    for g in 0..F {
-                        row[1 + k][g] += damping * self.velocity_rows[i][k][g];
+                if f == 0 {
+                    for k in 0..7 {
+                        row[k][f] = cube[k];
                     }
-                }
-                for (shift, (node, weight)) in neighbours.iter().zip([1.0, -2.0, 1.0]).enumerate() {
-                    let factor = gamma * scale * weight;
-                    if f == 0 {
+                    for (shift, node) in neighbours(i, nodes).into_iter().enumerate() {
+                        let kappa = self.coefficients[node];
+                        let factor = gamma * (scale * DIFFERENCE[shift] + MASS[shift] * kappa * kappa);
                         for k in 0..5 {
                             for g in 0..F {
-                                row[shift + k][g] += factor * self.velocity_rows[*node][k][g];
+                                row[shift + k][g] += factor * self.velocity_rows[node][k][g];
                             }
                         }
-                    } else {
+                    }
+                } else {
+                    for k in 0..5 {
+                        row[1 + k][f] = square[k];
+                    }
+                    let damping = gamma * self.coefficients[i] * self.coefficients[f * nodes + i];
+                    for k in 0..5 {
+                        for g in 0..F {
+                            row[1 + k][g] += damping * self.velocity_rows[i][k][g];
+                        }
+                    }
+                    for (shift, node) in neighbours(i, nodes).into_iter().enumerate() {
+                        let factor = gamma * scale * DIFFERENCE[shift];
                         for k in 0..3 {
                             for g in 0..F {
-                                row[1 + shift + k][g] -= factor * self.gradient_rows[*node][f][k][g];
+                                row[1 + shift + k][g] -= factor * self.gradient_rows[node][f][k][g];
                             }
                         }
                     }
@@ -215,7 +227,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
                 for (k, entries) in row.iter().enumerate() {
                     for (g, value) in entries.iter().enumerate() {
                         let offset = (k as isize - 3) * F as isize + g as isize - f as isize;
-                        if offset.unsigned_abs() <= B {
+                        if *value != 0.0 {
                             self.matrix.set(i * F + f, offset, *value);
                         }
                     }
@@ -242,11 +254,11 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
     fn apply(&mut self, spectra: &mut [Complex64]) {
         let low = self.grid.modes();
         for field in 0..F {
-            let correction = &self.correction[field * low..(field + 1) * low];
+            let factors = &self.before[field * low..(field + 1) * low];
             let spectrum = &spectra[field * self.fine_modes..(field + 1) * self.fine_modes];
             self.spectrum.fill(Complex64::default());
-            for ((target, value), correction) in self.spectrum.iter_mut().zip(spectrum).zip(correction) {
-                *target = value * correction;
+            for ((target, value), factor) in self.spectrum.iter_mut().zip(spectrum).zip(factors) {
+                *target = value * factor;
             }
             self.grid.synthesise(&mut self.spectrum, &mut self.values);
             for (target, value) in self.interleaved.iter_mut().skip(field).step_by(F).zip(&self.values) {
@@ -260,14 +272,28 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
                 *value = *target;
             }
             self.grid.transform(&self.values, &mut self.spectrum);
-            let correction = &self.correction[field * low..(field + 1) * low];
+            let factors = &self.after[field * low..(field + 1) * low];
             let spectrum = &mut spectra[field * self.fine_modes..(field + 1) * self.fine_modes];
             // J makes no mean, but its local part does: the mean stays as it was.
-            for ((target, value), correction) in
-                spectrum.iter_mut().zip(&self.spectrum).zip(correction).skip(1)
-            {
-                *target = value * correction;
+            for ((target, value), factor) in spectrum.iter_mut().zip(&self.spectrum).zip(factors).skip(1) {
+                *target = value * factor;
             }
         }
     }
+}
+
+/// The node before `i`, `i` and the node after it.
+fn neighbours(i: usize, nodes: usize) -> [usize; 3] {
+    [(i + nodes - 1) % nodes, i, (i + 1) % nodes]
+}
+
+/// Stencil of a product with A.
+fn convolve<const N: usize, const M: usize>(stencil: &[f64; N]) -> [f64; M] {
+    let mut product = [0.0; M];
+    for (shift, weight) in MASS.iter().enumerate() {
+        for (k, value) in stencil.iter().enumerate() {
+            product[shift + k] += weight * value;
+        }
+    }
+    product
 }
