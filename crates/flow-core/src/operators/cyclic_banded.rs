@@ -1,5 +1,13 @@
-//! LU factorisation of cyclic banded matrices: the last `B` unknowns are a dense border around a band.
-//! See `THEORY.md`, eq. (O2).
+//! LU factorisation of cyclic banded matrices, in segments that are eliminated side by side.
+//!
+//! The ring of unknowns is cut into segments; the last `B` unknowns of each separate it from the next. All
+//! segments are eliminated at once, one in each lane of the vector registers, without pivoting (their leading
+//! blocks are matrices with Dirichlet ends); what is left couples the separators, a small dense matrix, which is
+//! pivoted. See `THEORY.md`, eq. (O2).
+
+use multiversion::multiversion;
+
+use super::small_lu::SmallLu;
 
 /// The matrix has no usable LU factorisation.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -11,21 +19,45 @@ pub struct FactorisationError {
     pub pivot: f64,
 }
 
-/// A cyclic matrix with `B` bands on each side of the diagonal, factorised without pivoting in the band
-/// (its leading block is a matrix with Dirichlet ends) and with pivoting in the `B × B` corner.
+/// Segments eliminated at once: one register of the widest kind.
+const LANES: usize = 8;
+
+/// One value for each segment.
+type Lane = [f64; LANES];
+
+/// A cyclic matrix with `B` bands on each side of the diagonal.
+///
+/// Rows are numbered within their segment: first unit rows that make all segments equally long, then the interior,
+/// then the `B` rows of the separator.
 #[derive(Clone, Debug)]
 pub struct CyclicBanded<const B: usize> {
     rows: usize,
-    /// Row r holds the entries of columns r−B … r+B: left part, becomes L.
-    lower: Vec<[f64; B]>,
-    diagonal: Vec<f64>,
-    upper: Vec<[f64; B]>,
-    /// Entries of the core rows in the border columns.
-    right: Vec<[f64; B]>,
-    /// Entries of the border rows in the core columns, stored by core column.
-    bottom: Vec<[f64; B]>,
-    corner: [[f64; B]; B],
-    swaps: [usize; B],
+    segments: usize,
+    /// First row of each segment, and the end of the last.
+    starts: Vec<usize>,
+    factors: Factors<B>,
+    separators: SmallLu,
+    reduced: Vec<f64>,
+    /// The right-hand side by segments, after `B` zeros.
+    work: Vec<Lane>,
+}
+
+/// The matrix by segments; factorised in place.
+#[derive(Clone, Debug)]
+struct Factors<const B: usize> {
+    /// Rows of a segment before its separator.
+    interior: usize,
+    /// Entries left of the diagonal; becomes L.
+    lower: Vec<[Lane; B]>,
+    /// Becomes the inverse of U's diagonal.
+    diagonal: Vec<Lane>,
+    upper: Vec<[Lane; B]>,
+    /// Entries in the columns of the separator before the segment.
+    right: Vec<[Lane; B]>,
+    /// Entries in the rows of the separator before the segment, by column.
+    bottom: Vec<[Lane; B]>,
+    /// What the elimination adds to the block of the separator before the segment.
+    corner: [[Lane; B]; B],
 }
 
 impl<const B: usize> CyclicBanded<B> {
@@ -33,17 +65,28 @@ impl<const B: usize> CyclicBanded<B> {
     #[must_use]
     pub fn new(rows: usize) -> Self {
         assert!(rows >= 3 * B, "a cyclic band of half-width {B} needs {} rows", 3 * B);
-        let core = rows - B;
-        Self {
+        let segments = (rows / (2 * B)).clamp(1, LANES);
+        let starts: Vec<usize> = (0..=segments).map(|segment| segment * rows / segments).collect();
+        let longest = rows.div_ceil(segments);
+        let mut banded = Self {
             rows,
-            lower: vec![[0.0; B]; core],
-            diagonal: vec![0.0; core],
-            upper: vec![[0.0; B]; core],
-            right: vec![[0.0; B]; core],
-            bottom: vec![[0.0; B]; core],
-            corner: [[0.0; B]; B],
-            swaps: [0; B],
-        }
+            segments,
+            starts,
+            factors: Factors {
+                interior: longest - B,
+                lower: vec![[[0.0; LANES]; B]; longest],
+                diagonal: vec![[1.0; LANES]; longest],
+                upper: vec![[[0.0; LANES]; B]; longest],
+                right: vec![[[0.0; LANES]; B]; longest],
+                bottom: vec![[[0.0; LANES]; B]; longest],
+                corner: [[[0.0; LANES]; B]; B],
+            },
+            separators: SmallLu::new(segments * B),
+            reduced: vec![0.0; segments * B],
+            work: vec![[0.0; LANES]; B + longest],
+        };
+        banded.clear();
+        banded
     }
 
     /// Number of rows.
@@ -52,26 +95,46 @@ impl<const B: usize> CyclicBanded<B> {
         self.rows
     }
 
+    /// Number of unit rows before the interior of a segment.
+    fn padding(&self, segment: usize) -> usize {
+        self.factors.diagonal.len() - (self.starts[segment + 1] - self.starts[segment])
+    }
+
+    /// Segment of a row, and its number in it.
+    fn locate(&self, row: usize) -> (usize, usize) {
+        let segment = ((row + 1) * self.segments - 1) / self.rows;
+        (segment, self.padding(segment) + row - self.starts[segment])
+    }
+
     /// Sets every entry to zero, ready to be filled again.
     pub fn clear(&mut self) {
-        for block in [&mut self.lower, &mut self.upper, &mut self.right, &mut self.bottom] {
-            block.fill([0.0; B]);
+        let unit_rows: [usize; LANES] =
+            std::array::from_fn(|lane| if lane < self.segments { self.padding(lane) } else { usize::MAX });
+        let factors = &mut self.factors;
+        for block in [&mut factors.lower, &mut factors.upper, &mut factors.right, &mut factors.bottom] {
+            block.fill([[0.0; LANES]; B]);
         }
-        self.diagonal.fill(0.0);
-        self.corner = [[0.0; B]; B];
+        factors.corner = [[[0.0; LANES]; B]; B];
+        for (row, diagonal) in factors.diagonal.iter_mut().enumerate() {
+            *diagonal = unit_rows.map(|unit_rows| if row < unit_rows { 1.0 } else { 0.0 });
+        }
     }
 
     /// Sets the entry in `row` and column `row + offset` (cyclic), |`offset`| ≤ `B`.
     pub fn set(&mut self, row: usize, offset: isize, value: f64) {
-        let (rows, core) = (self.rows, self.rows - B);
-        let column = (row as isize + offset).rem_euclid(rows as isize) as usize;
-        match (row < core, column < core) {
-            (true, true) if column < row => self.lower[row][B + column - row] = value,
-            (true, true) if column == row => self.diagonal[row] = value,
-            (true, true) => self.upper[row][column - row - 1] = value,
-            (true, false) => self.right[row][column - core] = value,
-            (false, true) => self.bottom[column][row - core] = value,
-            (false, false) => self.corner[row - core][column - core] = value,
+        let column = (row as isize + offset).rem_euclid(self.rows as isize) as usize;
+        let ((segment, r), (column_segment, c)) = (self.locate(row), self.locate(column));
+        let factors = &mut self.factors;
+        if segment == column_segment && c as isize - r as isize == offset {
+            match offset.signum() {
+                -1 => factors.lower[r][B + c - r][segment] = value,
+                0 => factors.diagonal[r][segment] = value,
+                _ => factors.upper[r][c - r - 1][segment] = value,
+            }
+        } else if offset < 0 {
+            factors.right[r][c - factors.interior][segment] = value;
+        } else {
+            factors.bottom[c][r - factors.interior][column_segment] = value;
         }
     }
 
@@ -80,136 +143,173 @@ impl<const B: usize> CyclicBanded<B> {
     /// # Errors
     /// [`FactorisationError`] at the first pivot that is zero or not finite.
     pub fn factorise(&mut self) -> Result<(), FactorisationError> {
-        let core = self.rows - B;
-        for r in 0..core {
-            let pivot = self.diagonal[r];
-            if pivot == 0.0 || !pivot.is_finite() {
-                return Err(FactorisationError { row: r, pivot });
-            }
-            let inverse = 1.0 / pivot;
-            self.diagonal[r] = inverse;
-            let (upper, right) = (self.upper[r], self.right[r]);
-            for j in 1..=B.min(core - 1 - r) {
-                let target = r + j;
-                let factor = self.lower[target][B - j] * inverse;
-                self.lower[target][B - j] = factor;
-                for k in 0..B {
-                    // Column r + 1 + k of row r + j.
-                    let column = k + 1;
-                    match column.cmp(&j) {
-                        std::cmp::Ordering::Less => self.lower[target][B + column - j] -= factor * upper[k],
-                        std::cmp::Ordering::Equal => self.diagonal[target] -= factor * upper[k],
-                        std::cmp::Ordering::Greater => {
-                            self.upper[target][column - j - 1] -= factor * upper[k];
-                        }
-                    }
-                }
-                for k in 0..B {
-                    self.right[target][k] -= factor * right[k];
-                }
-            }
-            let mut bottom = self.bottom[r];
-            for value in &mut bottom {
-                *value *= inverse;
-            }
-            self.bottom[r] = bottom;
-            for k in 0..B.min(core - 1 - r) {
-                for b in 0..B {
-                    self.bottom[r + 1 + k][b] -= bottom[b] * upper[k];
-                }
-            }
-            for b in 0..B {
-                for k in 0..B {
-                    self.corner[b][k] -= bottom[b] * right[k];
-                }
-            }
+        if let Some((r, lane, pivot)) = eliminate(&mut self.factors) {
+            return Err(FactorisationError { row: self.starts[lane] + r - self.padding(lane), pivot });
         }
-        self.factorise_corner()
+        self.couple_separators();
+        self.separators.factorise().map_err(|FactorisationError { row, pivot }| {
+            let end = self.starts[row / B + 1];
+            FactorisationError { row: end - B + row % B, pivot }
+        })
     }
 
-    /// LU of the corner with row pivoting.
-    fn factorise_corner(&mut self) -> Result<(), FactorisationError> {
-        for c in 0..B {
-            let largest = (c..B).fold(c, |best, row| {
-                if self.corner[row][c].abs() > self.corner[best][c].abs() { row } else { best }
-            });
-            self.swaps[c] = largest;
-            self.corner.swap(c, largest);
-            let pivot = self.corner[c][c];
-            if pivot == 0.0 || !pivot.is_finite() {
-                return Err(FactorisationError { row: self.rows - B + c, pivot });
-            }
-            let pivot_row = self.corner[c];
-            for row in &mut self.corner[c + 1..] {
-                let factor = row[c] / pivot;
-                row[c] = factor;
-                for k in c + 1..B {
-                    row[k] -= factor * pivot_row[k];
+    /// The matrix of the separators; their rows in the segments keep the columns of the interior only.
+    fn couple_separators(&mut self) {
+        let (interior, segments) = (self.factors.interior, self.segments);
+        let factors = &mut self.factors;
+        self.separators.clear();
+        for lane in 0..segments {
+            let (here, before) = (lane * B, (lane + segments - 1) % segments * B);
+            for i in 0..B {
+                let row = interior + i;
+                self.separators.add(here + i, here + i, factors.diagonal[row][lane]);
+                for j in 0..B {
+                    if j < i {
+                        let entry = &mut factors.lower[row][B + j - i][lane];
+                        self.separators.add(here + i, here + j, std::mem::take(entry));
+                    } else if j > i {
+                        self.separators.add(here + i, here + j, factors.upper[row][j - i - 1][lane]);
+                    }
+                    self.separators.add(here + i, before + j, factors.right[row][j][lane]);
+                    self.separators.add(before + j, here + i, factors.bottom[row][j][lane]);
+                    self.separators.add(before + i, before + j, factors.corner[i][j][lane]);
                 }
             }
         }
-        Ok(())
     }
 
     /// Overwrites the right-hand side `x` by the solution.
-    pub fn solve(&self, x: &mut [f64]) {
+    pub fn solve(&mut self, x: &mut [f64]) {
         assert_eq!(x.len(), self.rows, "length of the right-hand side");
-        let core = self.rows - B;
-        let (body, border) = x.split_at_mut(core);
-        let mut tail = [0.0; B];
-        tail.copy_from_slice(border);
-        // Both substitutions keep the last B solved entries in registers.
-        let mut window = [0.0; B];
-        for ((value, lower), bottom) in body.iter_mut().zip(&self.lower).zip(&self.bottom) {
-            let mut sum = *value;
-            for k in 0..B {
-                sum -= lower[k] * window[k];
+        let (interior, segments) = (self.factors.interior, self.segments);
+        for lane in 0..segments {
+            let values = &x[self.starts[lane]..self.starts[lane + 1]];
+            let first = B + self.padding(lane);
+            for (row, value) in self.work[first..].iter_mut().zip(values) {
+                row[lane] = *value;
             }
-            for b in 0..B {
-                tail[b] -= bottom[b] * sum;
-            }
-            for k in 1..B {
-                window[k - 1] = window[k];
-            }
-            window[B - 1] = sum;
-            *value = sum;
         }
-        self.solve_corner(&mut tail);
-        border.copy_from_slice(&tail);
-        let mut window = [0.0; B];
-        let rows = self.upper.iter().zip(&self.right).zip(&self.diagonal);
-        for (value, ((upper, right), inverse)) in body.iter_mut().zip(rows).rev() {
-            let mut sum = *value;
-            for b in 0..B {
-                sum -= right[b] * tail[b];
+        let tail = substitute_forward(&self.factors, &mut self.work);
+        for lane in 0..segments {
+            for i in 0..B {
+                self.reduced[lane * B + i] = self.work[B + interior + i][lane];
             }
-            // The newest value last, so that a row waits for one product only.
-            for k in (0..B).rev() {
-                sum -= upper[k] * window[k];
+        }
+        for lane in 0..segments {
+            let before = (lane + segments - 1) % segments * B;
+            for (b, tail) in tail.iter().enumerate() {
+                self.reduced[before + b] += tail[lane];
             }
-            sum *= inverse;
-            for k in (1..B).rev() {
-                window[k] = window[k - 1];
+        }
+        self.separators.solve(&mut self.reduced);
+        let mut previous = [[0.0; LANES]; B];
+        for lane in 0..segments {
+            let before = (lane + segments - 1) % segments * B;
+            for i in 0..B {
+                self.work[B + interior + i][lane] = self.reduced[lane * B + i];
+                previous[i][lane] = self.reduced[before + i];
             }
-            window[0] = sum;
-            *value = sum;
+        }
+        substitute_backward(&self.factors, &previous, &mut self.work);
+        for lane in 0..segments {
+            let first = B + self.padding(lane);
+            let values = &mut x[self.starts[lane]..self.starts[lane + 1]];
+            for (value, row) in values.iter_mut().zip(&self.work[first..]) {
+                *value = row[lane];
+            }
         }
     }
+}
 
-    fn solve_corner(&self, tail: &mut [f64; B]) {
-        for c in 0..B {
-            tail.swap(c, self.swaps[c]);
+/// a −= b c, lane by lane.
+#[inline(always)]
+fn subtract_product(a: &mut Lane, b: &Lane, c: &Lane) {
+    for lane in 0..LANES {
+        a[lane] -= b[lane] * c[lane];
+    }
+}
+
+/// Eliminates the interiors; row, lane and value of the first bad pivot.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn eliminate<const B: usize>(factors: &mut Factors<B>) -> Option<(usize, usize, f64)> {
+    for r in 0..factors.interior {
+        let pivot = factors.diagonal[r];
+        let inverse = pivot.map(|value| 1.0 / value);
+        if let Some(lane) = inverse.iter().position(|value| !value.is_finite() || *value == 0.0) {
+            return Some((r, lane, pivot[lane]));
         }
-        for c in 0..B {
-            for row in c + 1..B {
-                tail[row] -= self.corner[row][c] * tail[c];
+        factors.diagonal[r] = inverse;
+        let (upper, right) = (factors.upper[r], factors.right[r]);
+        for j in 1..=B {
+            let target = r + j;
+            let mut factor = factors.lower[target][B - j];
+            for lane in 0..LANES {
+                factor[lane] *= inverse[lane];
+            }
+            factors.lower[target][B - j] = factor;
+            // Column r + 1 + k of row r + j.
+            for k in 0..j - 1 {
+                subtract_product(&mut factors.lower[target][B + k + 1 - j], &factor, &upper[k]);
+            }
+            subtract_product(&mut factors.diagonal[target], &factor, &upper[j - 1]);
+            for k in j..B {
+                subtract_product(&mut factors.upper[target][k - j], &factor, &upper[k]);
+            }
+            for k in 0..B {
+                subtract_product(&mut factors.right[target][k], &factor, &right[k]);
             }
         }
-        for c in (0..B).rev() {
-            for k in c + 1..B {
-                tail[c] -= self.corner[c][k] * tail[k];
+        let mut bottom = factors.bottom[r];
+        for value in &mut bottom {
+            for lane in 0..LANES {
+                value[lane] *= inverse[lane];
             }
-            tail[c] /= self.corner[c][c];
         }
+        factors.bottom[r] = bottom;
+        for k in 0..B {
+            for b in 0..B {
+                subtract_product(&mut factors.bottom[r + 1 + k][b], &bottom[b], &upper[k]);
+                subtract_product(&mut factors.corner[b][k], &bottom[b], &right[k]);
+            }
+        }
+    }
+    None
+}
+
+/// L-solve of `work`; returns what goes to the separators before the segments.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn substitute_forward<const B: usize>(factors: &Factors<B>, work: &mut [Lane]) -> [Lane; B] {
+    let mut tail = [[0.0; LANES]; B];
+    for (r, lower) in factors.lower.iter().enumerate() {
+        let mut sum = work[B + r];
+        for k in 0..B {
+            subtract_product(&mut sum, &lower[k], &work[r + k]);
+        }
+        work[B + r] = sum;
+        if r < factors.interior {
+            for (tail, bottom) in tail.iter_mut().zip(&factors.bottom[r]) {
+                subtract_product(tail, bottom, &sum);
+            }
+        }
+    }
+    tail
+}
+
+/// U-solve of `work`, whose separators are solved; `previous` holds those before the segments.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn substitute_backward<const B: usize>(factors: &Factors<B>, previous: &[Lane; B], work: &mut [Lane]) {
+    for r in (0..factors.interior).rev() {
+        let mut sum = work[B + r];
+        for (right, previous) in factors.right[r].iter().zip(previous) {
+            subtract_product(&mut sum, right, previous);
+        }
+        // The newest value last, so that a row waits for one product only.
+        for k in (0..B).rev() {
+            subtract_product(&mut sum, &factors.upper[r][k], &work[B + r + 1 + k]);
+        }
+        for lane in 0..LANES {
+            sum[lane] *= factors.diagonal[r][lane];
+        }
+        work[B + r] = sum;
     }
 }

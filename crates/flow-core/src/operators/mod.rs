@@ -2,6 +2,7 @@
 
 mod cyclic_banded;
 mod derivative;
+mod small_lu;
 
 pub use cyclic_banded::{CyclicBanded, FactorisationError};
 pub use derivative::{Derivative, DerivativeFamily};
