@@ -43,13 +43,12 @@ impl CurveFields {
         for field in 0..self.layout.fields() {
             let range = self.layout.field(field);
             let spectrum = &self.spectra[field * self.modes..(field + 1) * self.modes];
-            self.scratch.copy_from_slice(spectrum);
-            grid.synthesise(&mut self.scratch, &mut self.pointwise[range.clone()]);
+            grid.synthesise(spectrum, &mut self.pointwise[range.clone()]);
             if let (Some(symbol), Some(values)) = (derivative.interpolation(), &mut self.interpolated) {
                 for ((scratch, spectrum), symbol) in self.scratch.iter_mut().zip(spectrum).zip(symbol) {
                     *scratch = spectrum * symbol;
                 }
-                grid.synthesise(&mut self.scratch, &mut values[range]);
+                grid.synthesise(&self.scratch, &mut values[range]);
             }
         }
     }

@@ -6,7 +6,7 @@
 use super::curve_fields::CurveFields;
 use super::slope_energy::SlopeEnergy;
 use crate::energies::{EnergyTerm, Fields, Jet, LengthJet, Order, TermFault};
-use crate::geometry::{Complex64, Layout, PeriodicGrid, SpectralLayout, dot};
+use crate::geometry::{Complex64, Layout, PeriodicGrid, SpectralLayout, dot, sum};
 use crate::operators::Derivative;
 
 /// Gradient of the energy, as the flow map takes it.
@@ -33,7 +33,6 @@ pub struct EnergySum {
     motion: Vec<f64>,
     motion_spectra: Vec<Complex64>,
     product: Vec<f64>,
-    spectrum: Vec<Complex64>,
 }
 
 impl EnergySum {
@@ -64,7 +63,6 @@ impl EnergySum {
             motion: vec![0.0; nodes * fields],
             motion_spectra: vec![Complex64::default(); grid.modes() * fields],
             product: vec![0.0; nodes],
-            spectrum: vec![Complex64::default(); grid.modes()],
         }
     }
 
@@ -219,8 +217,7 @@ impl EnergySum {
             {
                 *motion = (v - phi * length_motion) / length;
             }
-            self.spectrum.copy_from_slice(spectrum);
-            self.grid.synthesise(&mut self.spectrum, &mut self.motion[self.layout.field(field)]);
+            self.grid.synthesise(spectrum, &mut self.motion[self.layout.field(field)]);
         }
         let mut by_length = self.of_length(length).second * length_motion;
         for field in 0..fields {
@@ -261,5 +258,5 @@ impl EnergySum {
 
 /// Mean of nodal values.
 pub(super) fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
+    sum(values) / values.len() as f64
 }

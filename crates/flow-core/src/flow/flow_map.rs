@@ -55,7 +55,7 @@ impl FlowMap {
             for ((slope, p), symbol) in self.spectrum.iter_mut().zip(p).zip(self.derivative.to_flux()) {
                 *slope = p * symbol;
             }
-            self.grid.synthesise(&mut self.spectrum, &mut self.values);
+            self.grid.synthesise(&self.spectrum, &mut self.values);
             let phi = at.at_flux_points(field);
             if field == 0 {
                 for ((z, slope), phi) in self.product.iter_mut().zip(&self.values).zip(phi) {
@@ -71,7 +71,7 @@ impl FlowMap {
         for (z, symbol) in self.spectrum.iter_mut().zip(self.derivative.inverse_to_flux()) {
             *z *= symbol;
         }
-        self.grid.synthesise(&mut self.spectrum, &mut self.values);
+        self.grid.synthesise(&self.spectrum, &mut self.values);
         for ((force, z), kappa) in force.iter_mut().zip(&self.values).zip(at.at_nodes(0)) {
             *force = kappa * (z - by_length);
         }
@@ -80,7 +80,7 @@ impl FlowMap {
         for ((value, p), symbol) in self.spectrum.iter_mut().zip(gradient).zip(laplacian) {
             *value = p * (scale * symbol);
         }
-        self.grid.synthesise(&mut self.spectrum, &mut self.values);
+        self.grid.synthesise(&self.spectrum, &mut self.values);
         for (force, bend) in force.iter_mut().zip(&self.values) {
             *force += bend;
         }
@@ -100,7 +100,7 @@ impl FlowMap {
         for (w, symbol) in self.spectrum.iter_mut().zip(self.derivative.inverse_to_flux()) {
             *w *= symbol.conj();
         }
-        self.grid.synthesise(&mut self.spectrum, &mut self.tangential);
+        self.grid.synthesise(&self.spectrum, &mut self.tangential);
         for field in 0..self.layout.fields() {
             for ((flux, phi), w) in
                 self.product.iter_mut().zip(at.at_flux_points(field)).zip(&self.tangential)
@@ -137,6 +137,6 @@ impl FlowMap {
         if let Some(sawtooth) = self.grid.sawtooth_mode() {
             self.spectrum[sawtooth] = Complex64::default();
         }
-        self.grid.synthesise(&mut self.spectrum, w);
+        self.grid.synthesise(&self.spectrum, w);
     }
 }

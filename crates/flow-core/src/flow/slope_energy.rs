@@ -65,7 +65,7 @@ impl SlopeEnergy {
                 *slope = phi * symbol * scale;
             }
             let slopes = self.layout.field(fields + field);
-            self.grid.synthesise(&mut self.spectrum, &mut self.fields[slopes]);
+            self.grid.synthesise(&self.spectrum, &mut self.fields[slopes]);
         }
     }
 
@@ -120,10 +120,10 @@ impl SlopeEnergy {
                 None => self.spectrum.copy_from_slice(spectrum),
                 Some(symbol) => multiply(&mut self.spectrum, spectrum, symbol),
             }
-            self.grid.synthesise(&mut self.spectrum, &mut self.motion[self.layout.field(field)]);
+            self.grid.synthesise(&self.spectrum, &mut self.motion[self.layout.field(field)]);
             multiply(&mut self.spectrum, spectrum, self.derivative.to_flux());
             let slopes = self.layout.field(fields + field);
-            self.grid.synthesise(&mut self.spectrum, &mut self.motion[slopes.clone()]);
+            self.grid.synthesise(&self.spectrum, &mut self.motion[slopes.clone()]);
             let by_slope = &self.frozen_by_slope[self.layout.field(field)];
             by_length -= mean_of_product(by_slope, &self.motion[slopes.clone()]) / length;
             let frozen = &self.frozen_slopes[self.layout.field(field)];

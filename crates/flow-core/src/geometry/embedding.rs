@@ -4,6 +4,8 @@
 use std::f64::consts::TAU;
 
 use super::grid::{Complex64, PeriodicGrid};
+use super::measures::sum;
+use super::unit_vectors::unit_vectors;
 
 /// Where a curve lies: what curvature and length leave open.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -60,16 +62,14 @@ impl Embedding {
         let nodes = self.grid.nodes() as f64;
         let turning_per_node = self.spectrum[0].re / nodes;
         integrate(&self.grid, &mut self.spectrum);
-        self.grid.synthesise(&mut self.spectrum, &mut self.theta);
+        self.grid.synthesise(&self.spectrum, &mut self.theta);
         for (i, theta) in self.theta.iter_mut().enumerate() {
             *theta += angle + turning_per_node * i as f64;
         }
         let [cosine, sine] = &mut self.tangent;
-        for ((theta, cosine), sine) in self.theta.iter().zip(cosine.iter_mut()).zip(sine.iter_mut()) {
-            (*sine, *cosine) = theta.sin_cos();
-        }
+        unit_vectors(&self.theta, cosine, sine);
         for axis in 0..2 {
-            self.gap[axis] = self.tangent[axis].iter().sum::<f64>() * length / nodes;
+            self.gap[axis] = sum(&self.tangent[axis]) * length / nodes;
         }
     }
 
@@ -86,8 +86,7 @@ impl Embedding {
     pub fn set_position(&mut self, length: f64, centre: [f64; 2]) {
         self.shape_spectra();
         for axis in 0..2 {
-            self.spectrum.copy_from_slice(&self.shape[axis]);
-            self.grid.synthesise(&mut self.spectrum, &mut self.position[axis]);
+            self.grid.synthesise(&self.shape[axis], &mut self.position[axis]);
             for x in &mut self.position[axis] {
                 *x = centre[axis] + length * *x;
             }

@@ -1,27 +1,17 @@
 //! The periodic grid and its discrete Fourier transform.
 
 use std::f64::consts::TAU;
-use std::fmt;
-use std::sync::Arc;
 
-pub use realfft::num_complex::Complex64;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+pub use rustfft::num_complex::Complex64;
+
+use super::real_transform::RealTransform;
 
 /// `n` equidistant nodes of the unit parameter circle, and the transforms between nodal values
 /// and Fourier coefficients (`THEORY.md`, eq. (D1)).
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct PeriodicGrid {
     nodes: usize,
-    forward: Arc<dyn RealToComplex<f64>>,
-    inverse: Arc<dyn ComplexToReal<f64>>,
-    values: Vec<f64>,
-    scratch: Vec<Complex64>,
-}
-
-impl fmt::Debug for PeriodicGrid {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "PeriodicGrid {{ nodes: {} }}", self.nodes)
-    }
+    transform: RealTransform,
 }
 
 impl PeriodicGrid {
@@ -29,17 +19,7 @@ impl PeriodicGrid {
     #[must_use]
     pub fn new(nodes: usize) -> Self {
         assert!(nodes >= 2, "a periodic grid needs two nodes");
-        let mut planner = RealFftPlanner::new();
-        let forward = planner.plan_fft_forward(nodes);
-        let inverse = planner.plan_fft_inverse(nodes);
-        let scratch = forward.get_scratch_len().max(inverse.get_scratch_len());
-        Self {
-            nodes,
-            forward,
-            inverse,
-            values: vec![0.0; nodes],
-            scratch: vec![Complex64::default(); scratch],
-        }
+        Self { nodes, transform: RealTransform::new(nodes) }
     }
 
     /// Number of nodes.
@@ -74,22 +54,11 @@ impl PeriodicGrid {
 
     /// Fourier coefficients of nodal values; the coefficient 0 is the mean.
     pub fn transform(&mut self, values: &[f64], spectrum: &mut [Complex64]) {
-        let scale = 1.0 / self.nodes as f64;
-        for (copy, value) in self.values.iter_mut().zip(values) {
-            *copy = scale * value;
-        }
-        let done = self.forward.process_with_scratch(&mut self.values, spectrum, &mut self.scratch);
-        assert!(done.is_ok(), "lengths are fixed when the grid is built");
+        self.transform.forward(values, spectrum);
     }
 
-    /// Nodal values of Fourier coefficients, which are used up.
-    pub fn synthesise(&mut self, spectrum: &mut [Complex64], values: &mut [f64]) {
-        // The mean and the sawtooth of a real field are real.
-        spectrum[0].im = 0.0;
-        if let Some(sawtooth) = self.sawtooth_mode() {
-            spectrum[sawtooth].im = 0.0;
-        }
-        let done = self.inverse.process_with_scratch(spectrum, values, &mut self.scratch);
-        assert!(done.is_ok(), "lengths are fixed when the grid is built");
+    /// Nodal values of Fourier coefficients; those of the mean and of the sawtooth count by their real parts.
+    pub fn synthesise(&mut self, spectrum: &[Complex64], values: &mut [f64]) {
+        self.transform.inverse(spectrum, values);
     }
 }

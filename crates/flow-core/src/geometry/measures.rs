@@ -9,10 +9,28 @@ pub fn enclosed_area(position: [&[f64]; 2], tangent: [&[f64]; 2], length: f64) -
     0.5 * length * sum / nodes as f64
 }
 
+use multiversion::multiversion;
+
 const LANES: usize = 8;
 
-/// Sum of products in eight independent lanes, which the compiler turns into vector registers.
+/// Sum in eight independent lanes, which the compiler turns into vector registers.
 #[must_use]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn sum(a: &[f64]) -> f64 {
+    let mut lanes = [0.0; LANES];
+    let chunks = a.chunks_exact(LANES);
+    let rest: f64 = chunks.remainder().iter().sum();
+    for a in chunks {
+        for k in 0..LANES {
+            lanes[k] += a[k];
+        }
+    }
+    rest + total(lanes)
+}
+
+/// Sum of products, by lanes as [`sum`].
+#[must_use]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut lanes = [0.0; LANES];
     let (a_chunks, b_chunks) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
@@ -22,5 +40,10 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
             lanes[k] += a[k] * b[k];
         }
     }
-    rest + ((lanes[0] + lanes[4]) + (lanes[1] + lanes[5])) + ((lanes[2] + lanes[6]) + (lanes[3] + lanes[7]))
+    rest + total(lanes)
+}
+
+#[inline(always)]
+fn total(lanes: [f64; LANES]) -> f64 {
+    ((lanes[0] + lanes[4]) + (lanes[1] + lanes[5])) + ((lanes[2] + lanes[6]) + (lanes[3] + lanes[7]))
 }

@@ -7,13 +7,15 @@ mod closure;
 mod embedding;
 mod grid;
 mod measures;
+mod real_transform;
 pub mod shapes;
 mod spectral;
 mod state;
+mod unit_vectors;
 
 pub use closure::{Closure, ClosureError};
 pub use embedding::{Embedding, Placement};
 pub use grid::{Complex64, PeriodicGrid};
-pub use measures::{dot, enclosed_area};
+pub use measures::{dot, enclosed_area, sum};
 pub use spectral::SpectralLayout;
 pub use state::{Layout, StateRef};

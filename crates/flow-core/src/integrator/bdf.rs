@@ -13,7 +13,7 @@ use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
 const HIGHEST_ORDER: usize = 5;
 /// Local errors may be this multiple of the tolerance: a dissipative flow forgets them, and the measured error of
 /// the shipped scenes is then a fifth of the tolerance (`benches/README.md`).
-const LOCAL_SHARE: f64 = 2.0;
+const LOCAL_SHARE: f64 = 4.0;
 /// Newton's method is solved to this part of the local tolerance: the square of its error, weighted by the
 /// stiffness, enters the dissipation and with it the energy balance.
 const NEWTON_SHARE: f64 = 0.2;

@@ -57,7 +57,7 @@ impl Moving {
             *value *= symbol(self.grid.wave_number(mode));
         }
         let mut out = vec![0.0; values.len()];
-        self.grid.synthesise(&mut spectrum, &mut out);
+        self.grid.synthesise(&spectrum, &mut out);
         out
     }
 

@@ -32,7 +32,7 @@ fn apply(grid: &mut PeriodicGrid, values: &[f64], symbol: impl Fn(usize) -> Comp
     grid.transform(values, &mut spectrum);
     spectrum.iter_mut().enumerate().for_each(|(mode, value)| *value *= symbol(mode));
     let mut out = vec![0.0; values.len()];
-    grid.synthesise(&mut spectrum, &mut out);
+    grid.synthesise(&spectrum, &mut out);
     out
 }
 

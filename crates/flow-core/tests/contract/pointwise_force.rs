@@ -37,7 +37,7 @@ fn slope(values: &[f64], length: f64, order: i32) -> Vec<f64> {
         *value *= Complex64::new(0.0, grid.wave_number(mode) / length).powi(order);
     }
     let mut out = vec![0.0; values.len()];
-    grid.synthesise(&mut spectrum, &mut out);
+    grid.synthesise(&spectrum, &mut out);
     out
 }
 

@@ -85,7 +85,7 @@ impl Blob {
         grid.transform(&y[layout.field(0)], &mut spectrum);
         let gap = Closure::new(nodes).project(&mut spectrum, curve.length, 1, curve.angle);
         gap.expect("a curve that closes");
-        grid.synthesise(&mut spectrum, &mut y[layout.field(0)]);
+        grid.synthesise(&spectrum, &mut y[layout.field(0)]);
         State { layout, y }
     }
 }

@@ -92,7 +92,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
             self.spectrum.fill(Complex64::default());
             self.spectrum[..low].copy_from_slice(&flow.frozen().spectrum(field)[..low]);
             let range = field * coarse..(field + 1) * coarse;
-            self.grid.synthesise(&mut self.spectrum, &mut self.coefficients[range]);
+            self.grid.synthesise(&self.spectrum, &mut self.coefficients[range]);
         }
         let mut block = F;
         for a in 0..F {
@@ -105,7 +105,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
                     grid.transform(flow.energy_terms().jet().second(a, b), &mut self.fine_spectrum);
                     self.spectrum.fill(Complex64::default());
                     self.spectrum[..low].copy_from_slice(&self.fine_spectrum[..low]);
-                    self.grid.synthesise(&mut self.spectrum, &mut self.coefficients[range]);
+                    self.grid.synthesise(&self.spectrum, &mut self.coefficients[range]);
                 }
                 block += 1;
             }
@@ -260,7 +260,7 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
             for ((target, value), factor) in self.spectrum.iter_mut().zip(spectrum).zip(factors) {
                 *target = value * factor;
             }
-            self.grid.synthesise(&mut self.spectrum, &mut self.values);
+            self.grid.synthesise(&self.spectrum, &mut self.values);
             for (target, value) in self.interleaved.iter_mut().skip(field).step_by(F).zip(&self.values) {
                 *target = *value;
             }

@@ -125,7 +125,7 @@ fn tabulate(spectra: &[Vec<Complex64>; 2], grid: &PeriodicGrid) -> Vec<Jet> {
                 let multiplicity = grid.multiplicity(mode) / finer.multiplicity(mode);
                 spectrum[mode] = multiplicity * value * Complex64::new(0.0, mode as f64).powu(order);
             }
-            finer.synthesise(&mut spectrum, &mut values);
+            finer.synthesise(&spectrum, &mut values);
             for (jet, value) in table.iter_mut().zip(&values) {
                 jet[order as usize][axis] = *value;
             }

@@ -1,0 +1,167 @@
+//! The discrete Fourier transform of real values by a complex one: of half the length if it is even.
+//!
+//! With z_j = x_{2j} + i x_{2j+1} and its transform Z of length M = N/2, X_k = ½(Z_k + Z̄_{M−k}) +
+//! ½u_k(Z_k − Z̄_{M−k}), `u_k` = −i e^{−2πik/N}; the inverse has ū. See `THEORY.md`, eq. (O1).
+
+use std::f64::consts::TAU;
+use std::fmt;
+use std::sync::Arc;
+
+use multiversion::multiversion;
+use rustfft::{Fft, FftPlanner};
+
+use super::grid::Complex64;
+
+/// Plans and scratch for one number of values.
+#[derive(Clone)]
+pub struct RealTransform {
+    values: usize,
+    forward: Arc<dyn Fft<f64>>,
+    inverse: Arc<dyn Fft<f64>>,
+    /// `u_k` for k ≤ M/2; empty if the number of values is odd.
+    turns: Vec<Complex64>,
+    work: Vec<Complex64>,
+    scratch: Vec<Complex64>,
+}
+
+impl fmt::Debug for RealTransform {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "RealTransform {{ values: {} }}", self.values)
+    }
+}
+
+impl RealTransform {
+    /// A transform of `values` ≥ 2 values.
+    #[must_use]
+    pub fn new(values: usize) -> Self {
+        let even = values.is_multiple_of(2);
+        let length = if even { values / 2 } else { values };
+        let mut planner = FftPlanner::new();
+        let (forward, inverse) = (planner.plan_fft_forward(length), planner.plan_fft_inverse(length));
+        let scratch = if even {
+            forward.get_immutable_scratch_len().max(inverse.get_outofplace_scratch_len())
+        } else {
+            forward.get_inplace_scratch_len().max(inverse.get_inplace_scratch_len())
+        };
+        let turn = |k: usize| {
+            let (sine, cosine) = (TAU * k as f64 / values as f64).sin_cos();
+            Complex64::new(-sine, -cosine)
+        };
+        let zero = Complex64::default();
+        Self {
+            values,
+            forward,
+            inverse,
+            turns: if even { (0..=length / 2).map(turn).collect() } else { Vec::new() },
+            work: vec![zero; length],
+            scratch: vec![zero; scratch],
+        }
+    }
+
+    /// `spectrum[k]` = Σ_j `values[j]` e^{−2πijk/N}/N for k ≤ N/2.
+    pub fn forward(&mut self, values: &[f64], spectrum: &mut [Complex64]) {
+        assert_eq!((values.len(), spectrum.len()), (self.values, self.values / 2 + 1), "lengths are fixed");
+        let scale = 1.0 / self.values as f64;
+        if self.turns.is_empty() {
+            for (work, value) in self.work.iter_mut().zip(values) {
+                *work = Complex64::new(*value, 0.0);
+            }
+            self.forward.process_with_scratch(&mut self.work, &mut self.scratch);
+            for (coefficient, work) in spectrum.iter_mut().zip(&self.work) {
+                *coefficient = work * scale;
+            }
+        } else {
+            let pairs = bytemuck::cast_slice(values);
+            self.forward.process_immutable_with_scratch(pairs, &mut self.work, &mut self.scratch);
+            untangle(&self.work, &self.turns, scale, spectrum);
+        }
+    }
+
+    /// The real values with the Fourier coefficients `spectrum`; the imaginary parts of the mean and of the
+    /// sawtooth, which real values do not have, are ignored.
+    pub fn inverse(&mut self, spectrum: &[Complex64], values: &mut [f64]) {
+        assert_eq!((values.len(), spectrum.len()), (self.values, self.values / 2 + 1), "lengths are fixed");
+        if self.turns.is_empty() {
+            let last = self.values;
+            self.work[0] = Complex64::new(spectrum[0].re, 0.0);
+            for (k, coefficient) in spectrum.iter().enumerate().skip(1) {
+                self.work[k] = *coefficient;
+                self.work[last - k] = coefficient.conj();
+            }
+            self.inverse.process_with_scratch(&mut self.work, &mut self.scratch);
+            for (value, work) in values.iter_mut().zip(&self.work) {
+                *value = work.re;
+            }
+        } else {
+            tangle(spectrum, &self.turns, &mut self.work);
+            let pairs = bytemuck::cast_slice_mut(values);
+            self.inverse.process_outofplace_with_scratch(&mut self.work, pairs, &mut self.scratch);
+        }
+    }
+}
+
+/// Modes combined at once.
+const WIDTH: usize = 4;
+
+/// (½(a + b̄) + ½u(a − b̄), conj(½(a + b̄) − ½u(a − b̄))) times twice `half`.
+#[inline(always)]
+fn butterfly(a: Complex64, b: Complex64, u: Complex64, half: f64) -> [Complex64; 2] {
+    let (sum_re, sum_im) = (half * (a.re + b.re), half * (a.im - b.im));
+    let (difference_re, difference_im) = (half * (a.re - b.re), half * (a.im + b.im));
+    let turned_re = u.re * difference_re - u.im * difference_im;
+    let turned_im = u.re * difference_im + u.im * difference_re;
+    [
+        Complex64::new(sum_re + turned_re, sum_im + turned_im),
+        Complex64::new(sum_re - turned_re, turned_im - sum_im),
+    ]
+}
+
+/// Butterflies of `from[k]` and `from[length − k]` into `to` for 1 ≤ k ≤ `length`/2, with `turns[k]` or, if
+/// `INVERSE`, its conjugate.
+#[inline(always)]
+fn butterflies<const INVERSE: bool>(
+    from: &[Complex64],
+    to: &mut [Complex64],
+    length: usize,
+    turns: &[Complex64],
+    half: f64,
+) {
+    let turn = |u: Complex64| if INVERSE { u.conj() } else { u };
+    let middle = length / 2;
+    let (low_to, high_to) = to.split_at_mut(middle + 1);
+    // Whole chunks below the middle, and their mirror images, the last first.
+    let (lows, _) = from[1..length - middle].as_chunks::<WIDTH>();
+    let (_, highs) = from[middle + 1..length].as_rchunks::<WIDTH>();
+    let (low_targets, _) = low_to[1..length - middle].as_chunks_mut::<WIDTH>();
+    let (_, high_targets) = high_to[..length - middle - 1].as_rchunks_mut::<WIDTH>();
+    let (turn_chunks, _) = turns[1..length - middle].as_chunks::<WIDTH>();
+    let mirrored = highs.iter().zip(high_targets).rev();
+    for (((low, low_target), u), (high, high_target)) in lows.iter().zip(low_targets).zip(turn_chunks).zip(mirrored) {
+        for l in 0..WIDTH {
+            [low_target[l], high_target[WIDTH - 1 - l]] =
+                butterfly(low[l], high[WIDTH - 1 - l], turn(u[l]), half);
+        }
+    }
+    for k in 1 + lows.len() * WIDTH..=middle {
+        let [low, high] = butterfly(from[k], from[length - k], turn(turns[k]), half);
+        to[k] = low;
+        to[length - k] = high;
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn untangle(half_spectrum: &[Complex64], turns: &[Complex64], scale: f64, spectrum: &mut [Complex64]) {
+    let length = half_spectrum.len();
+    let Complex64 { re, im } = half_spectrum[0];
+    spectrum[0] = Complex64::new(scale * (re + im), 0.0);
+    spectrum[length] = Complex64::new(scale * (re - im), 0.0);
+    butterflies::<false>(half_spectrum, spectrum, length, turns, 0.5 * scale);
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn tangle(spectrum: &[Complex64], turns: &[Complex64], half_spectrum: &mut [Complex64]) {
+    let length = half_spectrum.len();
+    let (mean, sawtooth) = (spectrum[0].re, spectrum[length].re);
+    half_spectrum[0] = Complex64::new(mean + sawtooth, mean - sawtooth);
+    butterflies::<true>(spectrum, half_spectrum, length, turns, 1.0);
+}
