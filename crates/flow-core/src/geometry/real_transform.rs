@@ -100,8 +100,10 @@ impl RealTransform {
     }
 }
 
-/// Modes combined at once.
-const WIDTH: usize = 4;
+/// Modes combined at once, as real numbers and as complex ones.
+const LANES: usize = 8;
+const WIDTH: usize = LANES / 2;
+type Chunk = [f64; LANES];
 
 /// (½(a + b̄) + ½u(a − b̄), conj(½(a + b̄) − ½u(a − b̄))) times twice `half`.
 #[inline(always)]
@@ -126,27 +128,51 @@ fn butterflies<const INVERSE: bool>(
     turns: &[Complex64],
     half: f64,
 ) {
-    let turn = |u: Complex64| if INVERSE { u.conj() } else { u };
     let middle = length / 2;
     let (low_to, high_to) = to.split_at_mut(middle + 1);
     // Whole chunks below the middle, and their mirror images, the last first.
-    let (lows, _) = from[1..length - middle].as_chunks::<WIDTH>();
-    let (_, highs) = from[middle + 1..length].as_rchunks::<WIDTH>();
-    let (low_targets, _) = low_to[1..length - middle].as_chunks_mut::<WIDTH>();
-    let (_, high_targets) = high_to[..length - middle - 1].as_rchunks_mut::<WIDTH>();
-    let (turn_chunks, _) = turns[1..length - middle].as_chunks::<WIDTH>();
+    let (lows, _) = chunks(&from[1..length - middle]);
+    let (_, highs) = bytemuck::cast_slice(&from[middle + 1..length]).as_rchunks::<LANES>();
+    let (low_targets, _) = bytemuck::cast_slice_mut(&mut low_to[1..length - middle]).as_chunks_mut::<LANES>();
+    let (_, high_targets) =
+        bytemuck::cast_slice_mut(&mut high_to[..length - middle - 1]).as_rchunks_mut::<LANES>();
+    let (turn_chunks, _) = chunks(&turns[1..length - middle]);
     let mirrored = highs.iter().zip(high_targets).rev();
     for (((low, low_target), u), (high, high_target)) in lows.iter().zip(low_targets).zip(turn_chunks).zip(mirrored) {
-        for l in 0..WIDTH {
-            [low_target[l], high_target[WIDTH - 1 - l]] =
-                butterfly(low[l], high[WIDTH - 1 - l], turn(u[l]), half);
-        }
+        [*low_target, *high_target] = butterfly_of_chunks::<INVERSE>(low, high, u, half);
     }
     for k in 1 + lows.len() * WIDTH..=middle {
-        let [low, high] = butterfly(from[k], from[length - k], turn(turns[k]), half);
+        let turn = if INVERSE { turns[k].conj() } else { turns[k] };
+        let [low, high] = butterfly(from[k], from[length - k], turn, half);
         to[k] = low;
         to[length - k] = high;
     }
+}
+
+/// As [`butterfly`] for the modes of a chunk and those of its mirror image: operations on whole registers, with
+/// real and imaginary parts side by side as they lie in memory.
+#[inline(always)]
+fn butterfly_of_chunks<const INVERSE: bool>(low: &Chunk, high: &Chunk, u: &Chunk, half: f64) -> [Chunk; 2] {
+    let sign = |l: usize| if (l % 2 == 0) == INVERSE { 1.0 } else { -1.0 };
+    let mirror: Chunk = std::array::from_fn(|l| high[LANES - 2 - l + 2 * (l % 2)]);
+    let conjugate: Chunk = std::array::from_fn(|l| if l % 2 == 0 { mirror[l] } else { -mirror[l] });
+    let sum: Chunk = std::array::from_fn(|l| half * (low[l] + conjugate[l]));
+    let difference: Chunk = std::array::from_fn(|l| half * (low[l] - conjugate[l]));
+    let swapped: Chunk = std::array::from_fn(|l| difference[l ^ 1]);
+    let re: Chunk = std::array::from_fn(|l| u[l & !1]);
+    let im: Chunk = std::array::from_fn(|l| sign(l) * u[l | 1]);
+    let turned: Chunk = std::array::from_fn(|l| re[l] * difference[l] + im[l] * swapped[l]);
+    let below: Chunk = std::array::from_fn(|l| if l % 2 == 0 { sum[l] - turned[l] } else { turned[l] - sum[l] });
+    [
+        std::array::from_fn(|l| sum[l] + turned[l]),
+        std::array::from_fn(|l| below[LANES - 2 - l + 2 * (l % 2)]),
+    ]
+}
+
+/// The coefficients by chunks of real numbers.
+#[inline(always)]
+fn chunks(coefficients: &[Complex64]) -> (&[Chunk], &[f64]) {
+    bytemuck::cast_slice(coefficients).as_chunks::<LANES>()
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
