@@ -1,5 +1,6 @@
 //! The fields of one state where the operators need them: at nodes, as spectra, at flux points.
 
+use crate::geometry::vectors::{apply_symbol, scale_into};
 use crate::geometry::{Complex64, Layout, PeriodicGrid, SpectralLayout};
 use crate::operators::Derivative;
 
@@ -36,18 +37,14 @@ impl CurveFields {
     pub fn set(&mut self, state: &[f64], grid: &mut PeriodicGrid, derivative: &Derivative) {
         let layout = SpectralLayout::new(self.layout);
         self.length = state[layout.length_index()];
-        let inverse = 1.0 / self.length;
-        for (spectrum, value) in self.spectra.iter_mut().zip(layout.spectra(state)) {
-            *spectrum = value * inverse;
-        }
+        let pairs = bytemuck::cast_slice_mut(&mut self.spectra);
+        scale_into(pairs, 1.0 / self.length, &state[..layout.length_index()]);
         for field in 0..self.layout.fields() {
             let range = self.layout.field(field);
             let spectrum = &self.spectra[field * self.modes..(field + 1) * self.modes];
             grid.synthesise(spectrum, &mut self.pointwise[range.clone()]);
             if let (Some(symbol), Some(values)) = (derivative.interpolation(), &mut self.interpolated) {
-                for ((scratch, spectrum), symbol) in self.scratch.iter_mut().zip(spectrum).zip(symbol) {
-                    *scratch = spectrum * symbol;
-                }
+                apply_symbol(&mut self.scratch, spectrum, symbol);
                 grid.synthesise(&self.scratch, &mut values[range]);
             }
         }

@@ -6,7 +6,10 @@
 use super::curve_fields::CurveFields;
 use super::slope_energy::SlopeEnergy;
 use crate::energies::{EnergyTerm, Fields, Jet, LengthJet, Order, TermFault};
-use crate::geometry::{Complex64, Layout, PeriodicGrid, SpectralLayout, dot, sum};
+use crate::geometry::vectors::{
+    add_product, add_real_symbol, add_scaled, dot, multiply_into, scale_into, sum, weighted_dot,
+};
+use crate::geometry::{Complex64, Layout, PeriodicGrid, SpectralLayout};
 use crate::operators::Derivative;
 
 /// Gradient of the energy, as the flow map takes it.
@@ -130,14 +133,7 @@ impl EnergySum {
     }
 
     fn slope_product(&self, a: &[Complex64], b: &[Complex64]) -> f64 {
-        let products = a.iter().zip(b).zip(self.derivative.minus_laplacian());
-        // Two sums, so that one addition does not wait for the other.
-        let (mut real, mut imaginary) = (0.0, 0.0);
-        for ((a, b), symbol) in products {
-            real += symbol * (a.re * b.re);
-            imaginary += symbol * (a.im * b.im);
-        }
-        let full = real + imaginary;
+        let full = weighted_dot(self.derivative.minus_laplacian(), a, b);
         // The mean has no slope; the sawtooth, present once, was counted like the others.
         let once = self
             .grid
@@ -179,9 +175,7 @@ impl EnergySum {
             if coefficient != 0.0 {
                 let phi = at.spectrum(field);
                 let scale = coefficient / (length * length);
-                for ((p, phi), symbol) in p.iter_mut().zip(phi).zip(self.derivative.minus_laplacian()) {
-                    *p += phi * (scale * symbol);
-                }
+                add_real_symbol(p, scale, phi, self.derivative.minus_laplacian());
                 let square = self.slope_square(phi);
                 if order >= Order::Hessian {
                     self.frozen_slope_squares[field] = square;
@@ -210,37 +204,29 @@ impl EnergySum {
         let layout = SpectralLayout::new(self.layout);
         let length_motion = v[layout.length_index()];
         for field in 0..fields {
-            let range = field * modes..(field + 1) * modes;
-            let spectrum = &mut self.motion_spectra[range.clone()];
-            for ((motion, v), phi) in
-                spectrum.iter_mut().zip(&layout.spectra(v)[range]).zip(at.spectrum(field))
-            {
-                *motion = (v - phi * length_motion) / length;
-            }
+            let spectrum = &mut self.motion_spectra[field * modes..(field + 1) * modes];
+            scale_into(bytemuck::cast_slice_mut(spectrum), 1.0 / length, &v[layout.field(field)]);
+            let phi = bytemuck::cast_slice(at.spectrum(field));
+            add_scaled(bytemuck::cast_slice_mut(spectrum), -length_motion / length, phi);
             self.grid.synthesise(spectrum, &mut self.motion[self.layout.field(field)]);
         }
         let mut by_length = self.of_length(length).second * length_motion;
         for field in 0..fields {
-            self.product.fill(0.0);
-            for other in 0..fields {
-                let second = self.jet.second(field, other);
+            multiply_into(&mut self.product, self.jet.second(field, 0), &self.motion[self.layout.field(0)]);
+            for other in 1..fields {
                 let motion = &self.motion[self.layout.field(other)];
-                for ((product, second), motion) in self.product.iter_mut().zip(second).zip(motion) {
-                    *product += second * motion;
-                }
+                add_product(&mut self.product, self.jet.second(field, other), motion);
             }
             let p = &mut out.spectra[field * modes..(field + 1) * modes];
             self.grid.transform(&self.product, p);
             let coefficient = self.stiffness[field];
             if coefficient != 0.0 {
-                let (phi, motion) = (at.spectrum(field), &self.motion_spectra[field * modes..]);
+                let (phi, motion) = (at.spectrum(field), &self.motion_spectra[field * modes..(field + 1) * modes]);
                 let scale = coefficient / (length * length);
-                let shrink = 2.0 * length_motion / length;
                 let laplacian = self.derivative.minus_laplacian();
-                for (((p, motion), phi), symbol) in p.iter_mut().zip(motion).zip(phi).zip(laplacian) {
-                    *p += (motion - phi * shrink) * (scale * symbol);
-                }
-                let cross = self.slope_product(phi, &self.motion_spectra[field * modes..(field + 1) * modes]);
+                add_real_symbol(p, scale, motion, laplacian);
+                add_real_symbol(p, -2.0 * scale * length_motion / length, phi, laplacian);
+                let cross = self.slope_product(phi, motion);
                 by_length +=
                     scale * (self.frozen_slope_squares[field] / length * length_motion - 2.0 * cross);
             }

@@ -3,6 +3,10 @@
 //! Scaled arc-length gauge: ∂_sW = −|Γ|κV + ∂_t|Γ|, so that the metric stays uniform. See `THEORY.md`, eqs. (F1)–(F3).
 
 use super::curve_fields::CurveFields;
+use crate::geometry::vectors::{
+    add_product, add_real_symbol, add_scaled, apply_real_symbol, apply_symbol, multiply_by,
+    multiply_by_conjugate, multiply_into,
+};
 use crate::geometry::{Complex64, Layout, PeriodicGrid};
 use crate::operators::Derivative;
 
@@ -52,38 +56,25 @@ impl FlowMap {
         // z = Σ φ ∂_s p over the fields, at the flux points.
         for field in 0..self.layout.fields() {
             let p = &gradient[field * modes..(field + 1) * modes];
-            for ((slope, p), symbol) in self.spectrum.iter_mut().zip(p).zip(self.derivative.to_flux()) {
-                *slope = p * symbol;
-            }
+            apply_symbol(&mut self.spectrum, p, self.derivative.to_flux());
             self.grid.synthesise(&self.spectrum, &mut self.values);
             let phi = at.at_flux_points(field);
             if field == 0 {
-                for ((z, slope), phi) in self.product.iter_mut().zip(&self.values).zip(phi) {
-                    *z = phi * slope;
-                }
+                multiply_into(&mut self.product, phi, &self.values);
             } else {
-                for ((z, slope), phi) in self.product.iter_mut().zip(&self.values).zip(phi) {
-                    *z += phi * slope;
-                }
+                add_product(&mut self.product, phi, &self.values);
             }
         }
         self.grid.transform(&self.product, &mut self.spectrum);
-        for (z, symbol) in self.spectrum.iter_mut().zip(self.derivative.inverse_to_flux()) {
-            *z *= symbol;
-        }
+        multiply_by(&mut self.spectrum, self.derivative.inverse_to_flux());
         self.grid.synthesise(&self.spectrum, &mut self.values);
         for ((force, z), kappa) in force.iter_mut().zip(&self.values).zip(at.at_nodes(0)) {
             *force = kappa * (z - by_length);
         }
         let scale = -1.0 / at.length().powi(2);
-        let laplacian = self.derivative.minus_laplacian();
-        for ((value, p), symbol) in self.spectrum.iter_mut().zip(gradient).zip(laplacian) {
-            *value = p * (scale * symbol);
-        }
+        apply_real_symbol(&mut self.spectrum, scale, gradient, self.derivative.minus_laplacian());
         self.grid.synthesise(&self.spectrum, &mut self.values);
-        for (force, bend) in force.iter_mut().zip(&self.values) {
-            *force += bend;
-        }
+        add_scaled(force, 1.0, &self.values);
     }
 
     /// Rates of the fields per unit parameter as spectra, one per field, under the normal velocity `v`.
@@ -91,34 +82,21 @@ impl FlowMap {
     pub fn rates(&mut self, at: &CurveFields, v: &[f64], rates: &mut [Complex64]) -> f64 {
         let modes = self.grid.modes();
         let length = at.length();
-        for ((stretch, kappa), v) in self.product.iter_mut().zip(at.at_nodes(0)).zip(v) {
-            *stretch = length * kappa * v;
-        }
+        multiply_into(&mut self.product, at.at_nodes(0), v);
         self.grid.transform(&self.product, &mut self.spectrum);
-        let length_rate = self.spectrum[0].re;
-        // D₋W = −stretch + mean, with D₋ = −conj(D₊).
-        for (w, symbol) in self.spectrum.iter_mut().zip(self.derivative.inverse_to_flux()) {
-            *w *= symbol.conj();
-        }
+        let length_rate = length * self.spectrum[0].re;
+        // D₋W = −|Γ|κV + mean, with D₋ = −conj(D₊).
+        multiply_by_conjugate(&mut self.spectrum, length, self.derivative.inverse_to_flux());
         self.grid.synthesise(&self.spectrum, &mut self.tangential);
         for field in 0..self.layout.fields() {
-            for ((flux, phi), w) in
-                self.product.iter_mut().zip(at.at_flux_points(field)).zip(&self.tangential)
-            {
-                *flux = phi * w;
-            }
+            multiply_into(&mut self.product, at.at_flux_points(field), &self.tangential);
             let rate = &mut rates[field * modes..(field + 1) * modes];
             self.grid.transform(&self.product, rate);
-            for (rate, symbol) in rate.iter_mut().zip(self.derivative.to_flux()) {
-                *rate *= -symbol.conj();
-            }
+            multiply_by_conjugate(rate, -1.0, self.derivative.to_flux());
         }
         self.grid.transform(v, &mut self.spectrum);
         let scale = 1.0 / length;
-        let laplacian = self.derivative.minus_laplacian();
-        for ((rate, v), symbol) in rates.iter_mut().zip(&self.spectrum).zip(laplacian) {
-            *rate += v * (scale * symbol);
-        }
+        add_real_symbol(&mut rates[..modes], scale, &self.spectrum, self.derivative.minus_laplacian());
         length_rate
     }
 

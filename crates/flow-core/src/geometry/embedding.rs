@@ -4,8 +4,8 @@
 use std::f64::consts::TAU;
 
 use super::grid::{Complex64, PeriodicGrid};
-use super::measures::sum;
 use super::unit_vectors::unit_vectors;
+use super::vectors::sum;
 
 /// Where a curve lies: what curvature and length leave open.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -12,10 +12,11 @@ pub mod shapes;
 mod spectral;
 mod state;
 mod unit_vectors;
+pub mod vectors;
 
 pub use closure::{Closure, ClosureError};
 pub use embedding::{Embedding, Placement};
 pub use grid::{Complex64, PeriodicGrid};
-pub use measures::{dot, enclosed_area, sum};
+pub use measures::enclosed_area;
 pub use spectral::SpectralLayout;
 pub use state::{Layout, StateRef};

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::Problem;
-use crate::geometry::dot;
+use crate::geometry::vectors::dot;
 
 /// ‖e‖² = Σ |`e_b|²/|y_b|²` over the blocks b.
 #[derive(Clone, Debug)]
@@ -40,12 +40,5 @@ impl ErrorNorm {
     #[must_use]
     pub fn norm(&self, e: &[f64]) -> f64 {
         self.product(e, e).sqrt()
-    }
-}
-
-/// y += factor × x.
-pub fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
-    for (y, x) in y.iter_mut().zip(x) {
-        *y += factor * x;
     }
 }

@@ -1,7 +1,8 @@
 //! Right-preconditioned GMRES for (I − γJ)x = r in the error norm. See `THEORY.md`, eq. (I3).
 
-use super::error_norm::{ErrorNorm, add_scaled};
+use super::error_norm::ErrorNorm;
 use super::{Counters, Problem};
+use crate::geometry::vectors::{add_scaled, scale, scale_into};
 
 /// Room for Krylov bases up to a fixed size; nothing is allocated in a solve.
 #[derive(Clone, Debug)]
@@ -69,9 +70,8 @@ impl Gmres {
             counters.solves += 1;
             problem.jacobian_product(&self.preconditioned, &mut self.product);
             counters.jacobian_products += 1;
-            for ((next, v), product) in next.iter_mut().zip(&self.preconditioned).zip(&self.product) {
-                *next = v - gamma * product;
-            }
+            next.copy_from_slice(&self.preconditioned);
+            add_scaled(next, -gamma, &self.product);
             let column = &mut self.hessenberg[k];
             for (entry, v) in column.iter_mut().zip(known.iter()) {
                 *entry = norm.product(next, v);
@@ -96,9 +96,7 @@ impl Gmres {
             if size <= 1e-14 * radius {
                 break;
             }
-            for value in next.iter_mut() {
-                *value /= size;
-            }
+            scale(next, 1.0 / size);
         }
         counters.krylov_iterations += iterations as u64;
         self.combine(iterations, r);
@@ -119,11 +117,5 @@ impl Gmres {
         for (v, factor) in self.basis.iter().zip(&self.right[..iterations]) {
             add_scaled(x, *factor, v);
         }
-    }
-}
-
-fn scale_into(out: &mut [f64], factor: f64, values: &[f64]) {
-    for (out, value) in out.iter_mut().zip(values) {
-        *out = factor * value;
     }
 }

@@ -1,8 +1,9 @@
 //! Newton–Krylov iteration for an implicit stage y = a + γ f(y). See `THEORY.md`, eq. (I2).
 
-use super::error_norm::{ErrorNorm, add_scaled};
+use super::error_norm::ErrorNorm;
 use super::gmres::Gmres;
 use super::{Counters, Problem};
+use crate::geometry::vectors::add_scaled;
 
 const MOST_ITERATIONS: usize = 4;
 const MOST_KRYLOV: usize = 60;

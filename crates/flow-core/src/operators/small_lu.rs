@@ -1,7 +1,7 @@
 //! Dense LU factorisation with row pivoting of a small matrix, in place.
 
 use super::cyclic_banded::FactorisationError;
-use crate::geometry::dot;
+use crate::geometry::vectors::dot;
 
 /// A square matrix and its factors.
 #[derive(Clone, Debug)]

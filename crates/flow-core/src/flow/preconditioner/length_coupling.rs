@@ -4,7 +4,8 @@
 //! γΦ″ (𝓚e) eᵀ: Sherman–Morrison. The row of the length in I + `γ𝓚H₀` is eᵀ + γ(H₀𝓚e)ᵀ.
 
 use super::super::gradient_flow::GradientFlow;
-use crate::geometry::{SpectralLayout, dot};
+use crate::geometry::SpectralLayout;
+use crate::geometry::vectors::{add_scaled, dot};
 
 /// The rank-one correction.
 #[derive(Clone, Debug)]
@@ -70,8 +71,6 @@ impl LengthCoupling {
         let last = x.len() - 1;
         let weight = self.gamma * self.curvature;
         let factor = weight * x[last] / (1.0 + weight * self.response[last]);
-        for (x, response) in x.iter_mut().zip(&self.response) {
-            *x -= factor * response;
-        }
+        add_scaled(x, -factor, &self.response);
     }
 }

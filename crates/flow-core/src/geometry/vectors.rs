@@ -1,0 +1,139 @@
+//! Loops over nodal values and over spectra, compiled for the widest vector registers at hand.
+
+use multiversion::multiversion;
+
+use super::grid::Complex64;
+
+const LANES: usize = 8;
+
+/// Sum in eight independent lanes.
+#[must_use]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn sum(a: &[f64]) -> f64 {
+    let mut lanes = [0.0; LANES];
+    let (chunks, rest) = a.as_chunks::<LANES>();
+    for a in chunks {
+        for k in 0..LANES {
+            lanes[k] += a[k];
+        }
+    }
+    rest.iter().sum::<f64>() + total(lanes)
+}
+
+/// Sum of products, by lanes as [`sum`].
+#[must_use]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut lanes = [0.0; LANES];
+    let ((a_chunks, a_rest), (b_chunks, b_rest)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
+    for (a, b) in a_chunks.iter().zip(b_chunks) {
+        for k in 0..LANES {
+            lanes[k] += a[k] * b[k];
+        }
+    }
+    a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum::<f64>() + total(lanes)
+}
+
+/// Sum of `w` Re(ā b) over two spectra with real weights, by lanes as [`sum`].
+#[must_use]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn weighted_dot(weights: &[f64], a: &[Complex64], b: &[Complex64]) -> f64 {
+    const WIDTH: usize = LANES / 2;
+    let mut lanes = [0.0; LANES];
+    let (weight_chunks, weight_rest) = weights.as_chunks::<WIDTH>();
+    let (a_chunks, a_rest) = a.as_chunks::<WIDTH>();
+    let (b_chunks, b_rest) = b.as_chunks::<WIDTH>();
+    for ((w, a), b) in weight_chunks.iter().zip(a_chunks).zip(b_chunks) {
+        for k in 0..WIDTH {
+            lanes[2 * k] += w[k] * (a[k].re * b[k].re);
+            lanes[2 * k + 1] += w[k] * (a[k].im * b[k].im);
+        }
+    }
+    let rest = weight_rest.iter().zip(a_rest).zip(b_rest);
+    rest.map(|((w, a), b)| w * (a.re * b.re + a.im * b.im)).sum::<f64>() + total(lanes)
+}
+
+#[inline(always)]
+fn total(lanes: [f64; LANES]) -> f64 {
+    ((lanes[0] + lanes[4]) + (lanes[1] + lanes[5])) + ((lanes[2] + lanes[6]) + (lanes[3] + lanes[7]))
+}
+
+/// y += factor × x.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
+    for (y, x) in y.iter_mut().zip(x) {
+        *y += factor * x;
+    }
+}
+
+/// out = factor × x.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn scale_into(out: &mut [f64], factor: f64, x: &[f64]) {
+    for (out, x) in out.iter_mut().zip(x) {
+        *out = factor * x;
+    }
+}
+
+/// x ×= factor.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn scale(x: &mut [f64], factor: f64) {
+    for x in x {
+        *x *= factor;
+    }
+}
+
+/// out = a × b.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn multiply_into(out: &mut [f64], a: &[f64], b: &[f64]) {
+    for ((out, a), b) in out.iter_mut().zip(a).zip(b) {
+        *out = a * b;
+    }
+}
+
+/// out += a × b.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn add_product(out: &mut [f64], a: &[f64], b: &[f64]) {
+    for ((out, a), b) in out.iter_mut().zip(a).zip(b) {
+        *out += a * b;
+    }
+}
+
+/// out = symbol × x for a complex symbol.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn apply_symbol(out: &mut [Complex64], x: &[Complex64], symbol: &[Complex64]) {
+    for ((out, x), symbol) in out.iter_mut().zip(x).zip(symbol) {
+        *out = x * symbol;
+    }
+}
+
+/// out = factor × symbol × x for a real symbol.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn apply_real_symbol(out: &mut [Complex64], factor: f64, x: &[Complex64], symbol: &[f64]) {
+    for ((out, x), symbol) in out.iter_mut().zip(x).zip(symbol) {
+        *out = x * (factor * symbol);
+    }
+}
+
+/// out += factor × symbol × x for a real symbol.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn add_real_symbol(out: &mut [Complex64], factor: f64, x: &[Complex64], symbol: &[f64]) {
+    for ((out, x), symbol) in out.iter_mut().zip(x).zip(symbol) {
+        *out += x * (factor * symbol);
+    }
+}
+
+/// x ×= symbol.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn multiply_by(x: &mut [Complex64], symbol: &[Complex64]) {
+    for (x, symbol) in x.iter_mut().zip(symbol) {
+        *x *= symbol;
+    }
+}
+
+/// x ×= factor × conjugate of symbol.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn multiply_by_conjugate(x: &mut [Complex64], factor: f64, symbol: &[Complex64]) {
+    for (x, symbol) in x.iter_mut().zip(symbol) {
+        *x *= symbol.conj() * factor;
+    }
+}
