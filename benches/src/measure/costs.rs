@@ -50,14 +50,14 @@ pub fn costs(nodes: usize) -> Costs {
     let Setup { mut membrane, state, .. } = case.build("fourier");
     let mut out = vec![0.0; state.len()];
     let rate = seconds(|| membrane.rate(&state, &mut out));
-    let linearisation = seconds(|| membrane.linearise(&state));
+    let linearisation = seconds(|| membrane.linearise(&state, &mut out));
     let v = out.clone();
     let product = seconds(|| membrane.jacobian_product(&v, &mut out));
     let mut solve = [0.0; 2];
     let mut factorisation = [0.0; 2];
     for (index, solver) in ["fourier", "banded"].into_iter().enumerate() {
         let Setup { mut membrane, .. } = case.build(solver);
-        membrane.linearise(&state);
+        membrane.linearise(&state, &mut out);
         factorisation[index] = seconds(|| {
             membrane.factorise(GAMMA);
         });

@@ -78,7 +78,7 @@ impl Etdrk4 {
             return;
         }
         if self.age > 0 || self.symbol.is_none() {
-            problem.linearise(y);
+            problem.linearise(y, &mut self.stages[0]);
             self.symbol = Some(Symbol::new(self.flow.0.borrow_mut().flow()));
             self.age = 0;
         }

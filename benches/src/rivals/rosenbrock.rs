@@ -64,7 +64,7 @@ impl Rosenbrock {
 
     fn prepare(&mut self, problem: &mut dyn Problem, y: &[f64], gamma: f64, counters: &mut Counters) -> bool {
         if !self.linearised {
-            problem.linearise(y);
+            problem.linearise(y, &mut self.stage);
             self.linearised = true;
         }
         let serves =

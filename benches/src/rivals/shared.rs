@@ -36,8 +36,8 @@ impl Problem for Shared {
         self.0.borrow_mut().rate(y, rate);
     }
 
-    fn linearise(&mut self, y: &[f64]) {
-        self.0.borrow_mut().linearise(y);
+    fn linearise(&mut self, y: &[f64], rate: &mut [f64]) {
+        self.0.borrow_mut().linearise(y, rate);
     }
 
     fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {

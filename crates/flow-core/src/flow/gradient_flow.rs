@@ -164,6 +164,12 @@ impl GradientFlow {
         self.energy.linearise(&self.frozen, &mut self.gradient);
     }
 
+    /// Spectral rate at the state of the linearisation; call right after [`GradientFlow::spectral_linearise`].
+    pub fn frozen_rate(&mut self, rate: &mut [f64]) {
+        self.descend(true);
+        self.write_rates(true, rate);
+    }
+
     /// Product of the frozen −𝓚 Hess `𝓕_h` with `v`, both spectral.
     pub fn spectral_jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
         self.spectral_hessian_product(v);

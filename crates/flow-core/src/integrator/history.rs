@@ -1,5 +1,7 @@
 //! Past states at unequal times, and the polynomials through them. See `THEORY.md`, eq. (I4).
 
+use crate::geometry::vectors::{add_scaled, scale_into};
+
 /// The last states, newest first; storage is reused.
 #[derive(Clone, Debug)]
 pub struct History {
@@ -82,11 +84,9 @@ impl History {
 
     /// Sum of the newest `points` states with `weights`.
     pub fn combine(&self, weights: &[f64], points: usize, out: &mut [f64]) {
-        out.fill(0.0);
-        for (weight, state) in weights[..points].iter().zip(&self.states) {
-            for (out, value) in out.iter_mut().zip(state) {
-                *out += weight * value;
-            }
+        scale_into(out, weights[0], &self.states[0]);
+        for (weight, state) in weights[1..points].iter().zip(&self.states[1..]) {
+            add_scaled(out, *weight, state);
         }
     }
 }

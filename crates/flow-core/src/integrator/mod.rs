@@ -28,8 +28,8 @@ pub trait Problem {
     fn block_floor(&self, block: usize, y: &[f64]) -> f64;
     /// f(y) into `rate`.
     fn rate(&mut self, y: &[f64], rate: &mut [f64]);
-    /// Freezes J at `y`.
-    fn linearise(&mut self, y: &[f64]);
+    /// Freezes J at `y`; f(y) into `rate`.
+    fn linearise(&mut self, y: &[f64], rate: &mut [f64]);
     /// J times `v` into `out`.
     fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]);
     /// Prepares an approximate inverse of I − γJ; false if that fails.

@@ -13,8 +13,9 @@ const KRYLOV_SHARE: f64 = 0.5;
 const KRYLOV_REDUCTION: f64 = 0.1;
 /// γ may change by this factor before the preconditioner is factorised again.
 const GAMMA_DRIFT: f64 = 1.35;
-/// Accepted steps after which the linearisation is renewed in any case.
-const OLDEST_LINEARISATION: usize = 1;
+/// Size of the second correction over the first, before it is known: the linearisation is that of the guess, so
+/// Newton's method converges quadratically.
+const FIRST_CONTRACTION: f64 = 0.02;
 /// Accepted steps after which the preconditioner is renewed in any case.
 const OLDEST_FACTORISATION: usize = 5;
 
@@ -38,17 +39,14 @@ pub struct Stage<'a> {
     pub goal: f64,
 }
 
-/// The iteration with its memory: age of the linearisation, rate of convergence.
+/// The iteration with its memory: age of the factorisation.
 #[derive(Clone, Debug)]
 pub struct NewtonKrylov {
     gmres: Gmres,
     rate: Vec<f64>,
     correction: Vec<f64>,
-    linearised: bool,
-    linearisation_age: usize,
     factorised_gamma: Option<f64>,
     factorisation_age: usize,
-    contraction: f64,
 }
 
 impl NewtonKrylov {
@@ -59,11 +57,8 @@ impl NewtonKrylov {
             gmres: Gmres::new(size, MOST_KRYLOV),
             rate: vec![0.0; size],
             correction: vec![0.0; size],
-            linearised: false,
-            linearisation_age: 0,
             factorised_gamma: None,
             factorisation_age: 0,
-            contraction: 1.0,
         }
     }
 
@@ -78,58 +73,37 @@ impl NewtonKrylov {
         counters: &mut Counters,
     ) -> NewtonOutcome {
         loop {
-            let fresh = !self.linearised || self.linearisation_age >= OLDEST_LINEARISATION;
-            if !self.prepare(problem, guess, stage.gamma, counters) {
+            problem.linearise(guess, &mut self.rate);
+            counters.right_hand_sides += 1;
+            let serves = self.factorisation_serves(stage.gamma);
+            if !serves && !self.factorise(problem, stage.gamma, counters) {
                 return NewtonOutcome::Failed;
             }
             y.copy_from_slice(guess);
             if self.iterate(problem, norm, stage, y, counters) {
-                self.linearisation_age += 1;
                 self.factorisation_age += 1;
                 return NewtonOutcome::Converged;
             }
-            if fresh {
-                self.linearised = false;
+            if !serves {
                 return NewtonOutcome::Failed;
             }
-            self.linearised = false;
             self.factorised_gamma = None;
         }
     }
 
-    fn prepare(
-        &mut self,
-        problem: &mut dyn Problem,
-        guess: &[f64],
-        gamma: f64,
-        counters: &mut Counters,
-    ) -> bool {
-        if !self.linearised || self.linearisation_age >= OLDEST_LINEARISATION {
-            problem.linearise(guess);
-            self.linearised = true;
-            self.linearisation_age = 0;
-            self.contraction = 0.02;
-        }
-        let serves = self.factorised_gamma.is_some_and(|old| {
-            let ratio = gamma / old;
-            ratio < GAMMA_DRIFT && ratio > 1.0 / GAMMA_DRIFT
-        });
-        if !serves || self.factorisation_age >= OLDEST_FACTORISATION {
-            counters.factorisations += 1;
-            if self.linearisation_age > 0 {
-                problem.linearise(guess);
-                self.linearisation_age = 0;
-            }
-            if !problem.factorise(gamma) {
-                self.factorised_gamma = None;
-                return false;
-            }
-            self.factorised_gamma = Some(gamma);
-            self.factorisation_age = 0;
-        }
-        true
+    fn factorisation_serves(&self, gamma: f64) -> bool {
+        let near = |old: f64| gamma < GAMMA_DRIFT * old && old < GAMMA_DRIFT * gamma;
+        self.factorised_gamma.is_some_and(near) && self.factorisation_age < OLDEST_FACTORISATION
     }
 
+    fn factorise(&mut self, problem: &mut dyn Problem, gamma: f64, counters: &mut Counters) -> bool {
+        counters.factorisations += 1;
+        self.factorisation_age = 0;
+        self.factorised_gamma = problem.factorise(gamma).then_some(gamma);
+        self.factorised_gamma.is_some()
+    }
+
+    /// Corrects `y`, at which the rate is known, until the next correction would be below the goal.
     fn iterate(
         &mut self,
         problem: &mut dyn Problem,
@@ -138,15 +112,19 @@ impl NewtonKrylov {
         y: &mut [f64],
         counters: &mut Counters,
     ) -> bool {
-        let mut previous = f64::INFINITY;
+        let (mut contraction, mut previous) = (FIRST_CONTRACTION, f64::INFINITY);
         for iteration in 0..MOST_ITERATIONS {
-            let Some(size) = self.correct(problem, norm, stage, y, counters) else {
+            if iteration > 0 {
+                problem.rate(y, &mut self.rate);
+                counters.right_hand_sides += 1;
+            }
+            let Some(size) = self.correct_by_rate(problem, norm, stage, y, counters) else {
                 return false;
             };
             if iteration > 0 {
-                self.contraction = (0.3 * self.contraction).max(size / previous);
+                contraction = (0.3 * contraction).max(size / previous);
             }
-            if size * self.contraction.min(1.0) <= stage.goal {
+            if size * contraction.min(1.0) <= stage.goal {
                 return true;
             }
             if iteration > 0 && size > 2.0 * previous {
@@ -168,6 +146,18 @@ impl NewtonKrylov {
     ) -> Option<f64> {
         problem.rate(y, &mut self.rate);
         counters.right_hand_sides += 1;
+        self.correct_by_rate(problem, norm, stage, y, counters)
+    }
+
+    /// As [`NewtonKrylov::correct`], with the rate at `y` known.
+    fn correct_by_rate(
+        &mut self,
+        problem: &mut dyn Problem,
+        norm: &ErrorNorm,
+        stage: &Stage<'_>,
+        y: &mut [f64],
+        counters: &mut Counters,
+    ) -> Option<f64> {
         counters.newton_iterations += 1;
         for (((correction, rate), constant), y) in
             self.correction.iter_mut().zip(&self.rate).zip(stage.constant).zip(&*y)

@@ -138,6 +138,28 @@ impl<const B: usize> CyclicBanded<B> {
         }
     }
 
+    /// Sets consecutive entries of `row`, the first in column `row + first` (cyclic), none beyond the band.
+    pub fn set_row(&mut self, row: usize, first: isize, values: &[f64]) {
+        let (segment, r) = self.locate(row);
+        let start = r as isize + first;
+        let longest = self.factors.diagonal.len();
+        if start < self.padding(segment) as isize || start as usize + values.len() > longest {
+            for (k, value) in values.iter().enumerate() {
+                self.set(row, first + k as isize, *value);
+            }
+            return;
+        }
+        let (before, rest) = values.split_at(-first as usize);
+        let [diagonal, after @ ..] = rest else { return };
+        for (entry, value) in self.factors.lower[r][B - before.len()..].iter_mut().zip(before) {
+            entry[segment] = *value;
+        }
+        self.factors.diagonal[r][segment] = *diagonal;
+        for (entry, value) in self.factors.upper[r].iter_mut().zip(after) {
+            entry[segment] = *value;
+        }
+    }
+
     /// Factorises the matrix that was filled in.
     ///
     /// # Errors

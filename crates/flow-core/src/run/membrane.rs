@@ -140,8 +140,9 @@ impl Problem for Membrane {
         self.flow.spectral_rate(y, rate);
     }
 
-    fn linearise(&mut self, y: &[f64]) {
+    fn linearise(&mut self, y: &[f64], rate: &mut [f64]) {
         self.flow.spectral_linearise(y);
+        self.flow.frozen_rate(rate);
     }
 
     fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {

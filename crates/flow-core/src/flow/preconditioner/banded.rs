@@ -10,6 +10,7 @@ use std::fmt::Debug;
 
 use super::super::gradient_flow::GradientFlow;
 use super::fourier::mobility_symbol;
+use crate::geometry::vectors::sum;
 use crate::geometry::{Complex64, Layout, PeriodicGrid};
 use crate::operators::{CyclicBanded, FactorisationError};
 
@@ -49,6 +50,8 @@ struct LocalPart<const F: usize, const B: usize> {
     fine_modes: usize,
     grid: PeriodicGrid,
     matrix: CyclicBanded<B>,
+    /// Symbol of A by mode.
+    mass: Vec<f64>,
     /// Factors on the right-hand sides and on the solutions, by field and mode: powers of A, and the root of
     /// the ratio of the symbols.
     before: Vec<f64>,
@@ -71,6 +74,9 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         Self {
             fine_modes,
             matrix: CyclicBanded::new(coarse * F),
+            mass: (0..grid.modes())
+                .map(|mode| 1.0 - (0.5 * TAU * mode as f64 / coarse as f64).sin().powi(2) / 3.0)
+                .collect(),
             before: vec![1.0; F * grid.modes()],
             after: vec![1.0; F * grid.modes()],
             coefficients: vec![0.0; (F + F * (F + 1) / 2) * coarse],
@@ -129,12 +135,11 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         let (coarse, modes) = (self.grid.nodes(), self.grid.modes());
         for field in 0..F {
             let second = flow.energy_terms().jet().second(field, field);
-            let mean = (second.iter().sum::<f64>() / second.len() as f64).max(0.0);
+            let mean = (sum(second) / second.len() as f64).max(0.0);
             for mode in 0..modes.min(self.fine_modes) {
                 let exact = flow.grid_and_derivative().1.minus_laplacian()[mode];
-                let half = 0.5 * TAU * mode as f64 / coarse as f64;
-                let mass = 1.0 - half.sin().powi(2) / 3.0;
-                let difference = (2.0 * coarse as f64 * half.sin()).powi(2) / mass;
+                let mass = self.mass[mode];
+                let difference = 12.0 * (coarse as f64).powi(2) * (1.0 - mass) / mass;
                 let ratio = Self::diagonal_symbol(flow, field, mean, gamma, difference)
                     / Self::diagonal_symbol(flow, field, mean, gamma, exact);
                 let power = if field == 0 { mass * mass } else { mass };
@@ -224,14 +229,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
                         }
                     }
                 }
-                for (k, entries) in row.iter().enumerate() {
-                    for (g, value) in entries.iter().enumerate() {
-                        let offset = (k as isize - 3) * F as isize + g as isize - f as isize;
-                        if *value != 0.0 {
-                            self.matrix.set(i * F + f, offset, *value);
-                        }
-                    }
-                }
+                self.matrix.set_row(i * F + f, -((3 * F + f) as isize), row.as_flattened());
             }
         }
     }

@@ -1,6 +1,7 @@
 //! The symbol of I − γJ with coefficients frozen at their means: one small block per mode.
 
 use super::super::gradient_flow::GradientFlow;
+use crate::geometry::vectors::sum;
 use crate::geometry::{Complex64, Layout};
 
 /// Inverse blocks, one `fields × fields` matrix per mode, row by row.
@@ -40,12 +41,12 @@ impl FourierSymbol {
         }
     }
 
-    /// Inverts the blocks at the frozen state of `flow`.
-    pub fn set(&mut self, flow: &mut GradientFlow, gamma: f64) {
+    /// Inverts the blocks of the modes from `first` on, at the frozen state of `flow`.
+    pub fn set(&mut self, flow: &mut GradientFlow, gamma: f64, first: usize) {
         let (fields, length) = (self.fields, flow.frozen().length());
         self.laplacian.copy_from_slice(flow.grid_and_derivative().1.minus_laplacian());
         let jet = flow.energy_terms().jet();
-        let mean = |a: usize, b: usize| jet.second(a, b).iter().sum::<f64>() / jet.second(a, b).len() as f64;
+        let mean = |a: usize, b: usize| sum(jet.second(a, b)) / jet.second(a, b).len() as f64;
         let (means, block) = (&mut self.means, &mut self.block);
         for a in 0..fields {
             for b in 0..fields {
@@ -53,18 +54,14 @@ impl FourierSymbol {
                 means[a * fields + b] = if a == b { mean(a, a).max(0.0) } else { mean(a, b) };
             }
         }
-        for (mode, symbol) in self.laplacian.iter().enumerate() {
+        for (mode, symbol) in self.laplacian.iter().enumerate().skip(first) {
             for a in 0..fields {
                 let mobility = gamma * mobility_symbol(flow, a, *symbol, length);
                 for b in 0..fields {
-                    let stiffness = if a == b {
-                        flow.energy_terms().stiffness()[a] * symbol / (length * length)
-                    } else {
-                        0.0
-                    };
-                    let identity = if a == b { 1.0 } else { 0.0 };
-                    block[a * fields + b] = identity + mobility * (means[a * fields + b] + stiffness);
+                    block[a * fields + b] = mobility * means[a * fields + b];
                 }
+                let stiffness = flow.energy_terms().stiffness()[a] * symbol / (length * length);
+                block[a * fields + a] += 1.0 + mobility * stiffness;
             }
             let target = &mut self.inverse[mode * fields * fields..(mode + 1) * fields * fields];
             if !invert(block, fields, target) {
@@ -111,8 +108,24 @@ impl FourierSymbol {
     }
 }
 
-/// Inverts a small matrix by Gauss–Jordan elimination with pivoting; false if it is singular.
+/// Inverts a small matrix; false if it is singular.
 fn invert(matrix: &mut [f64], size: usize, inverse: &mut [f64]) -> bool {
+    match *matrix {
+        [a] => {
+            inverse[0] = 1.0 / a;
+            inverse[0].is_finite()
+        }
+        [a, b, c, d] => {
+            let scale = 1.0 / (a * d - b * c);
+            inverse.copy_from_slice(&[scale * d, -scale * b, -scale * c, scale * a]);
+            scale.is_finite()
+        }
+        _ => eliminate(matrix, size, inverse),
+    }
+}
+
+/// Gauss–Jordan elimination with pivoting.
+fn eliminate(matrix: &mut [f64], size: usize, inverse: &mut [f64]) -> bool {
     inverse.fill(0.0);
     for a in 0..size {
         inverse[a * size + a] = 1.0;

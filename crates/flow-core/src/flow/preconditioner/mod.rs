@@ -81,9 +81,9 @@ impl Preconditioner {
     /// [`FactorisationError`] if a pivot vanishes; a smaller γ helps.
     pub fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> Result<(), FactorisationError> {
         match &mut self.inverse {
-            FieldInverse::Fourier(symbol) => symbol.set(flow, gamma),
+            FieldInverse::Fourier(symbol) => symbol.set(flow, gamma, 0),
             FieldInverse::Banded(banded, symbol) => {
-                symbol.set(flow, gamma);
+                symbol.set(flow, gamma, banded.modes());
                 banded.factorise(flow, gamma)?;
             }
             FieldInverse::Dense(dense) => dense.factorise(flow, gamma)?,
