@@ -3,7 +3,7 @@
 //! With u = hΓk: (I − hγJ)uᵢ = hγ f(y + Σ aᵢⱼuⱼ) + γ Σ cᵢⱼuⱼ, where a = αΓ⁻¹, c = I/γ − Γ⁻¹ and the solution
 //! is y + Σ mᵢuᵢ, m = bΓ⁻¹. Hairer & Wanner, Solving ODEs II (1996), section IV.7.
 
-use flow_core::integrator::{Counters, ErrorNorm, Gmres, Problem};
+use flow_core::integrator::{Counters, ErrorNorm, Gmres, Problem, Target};
 use nalgebra::{DMatrix, DVector};
 
 use super::add_scaled;
@@ -129,7 +129,14 @@ impl Formula for Rosenbrock {
         for index in 0..self.stages.len() {
             let mut u = std::mem::take(&mut self.stages[index]);
             self.right_side(problem, y, gamma, index, &mut u, counters);
-            let solved = self.gmres.solve(problem, norm, gamma, [goal, KRYLOV_REDUCTION], &mut u, counters);
+            let solved = self.gmres.solve(
+                problem,
+                norm,
+                gamma,
+                Target { goal, reduction: KRYLOV_REDUCTION, weighted: false },
+                &mut u,
+                counters,
+            );
             let good = solved.converged;
             self.stages[index] = u;
             if problem.krylov_feedback(solved.iterations) || !good {

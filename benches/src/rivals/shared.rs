@@ -40,6 +40,14 @@ impl Problem for Shared {
         self.0.borrow_mut().linearise(y, rate);
     }
 
+    fn weigh(&self, r: &mut [f64]) {
+        self.0.borrow().weigh(r);
+    }
+
+    fn unweigh(&self, r: &mut [f64]) {
+        self.0.borrow().unweigh(r);
+    }
+
     fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
         self.0.borrow_mut().jacobian_product(v, out);
     }

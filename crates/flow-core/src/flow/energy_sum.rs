@@ -221,7 +221,8 @@ impl EnergySum {
             self.grid.transform(&self.product, p);
             let coefficient = self.stiffness[field];
             if coefficient != 0.0 {
-                let (phi, motion) = (at.spectrum(field), &self.motion_spectra[field * modes..(field + 1) * modes]);
+                let (phi, motion) =
+                    (at.spectrum(field), &self.motion_spectra[field * modes..(field + 1) * modes]);
                 let scale = coefficient / (length * length);
                 let laplacian = self.derivative.minus_laplacian();
                 add_real_symbol(p, scale, motion, laplacian);

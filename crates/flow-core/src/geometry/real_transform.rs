@@ -1,7 +1,9 @@
 //! The discrete Fourier transform of real values by a complex one: of half the length if it is even.
 //!
-//! With z_j = x_{2j} + i x_{2j+1} and its transform Z of length M = N/2, X_k = ½(Z_k + Z̄_{M−k}) +
-//! ½u_k(Z_k − Z̄_{M−k}), `u_k` = −i e^{−2πik/N}; the inverse has ū. See `THEORY.md`, eq. (O1).
+//! With zⱼ = x₂ⱼ + i x₂ⱼ₊₁ and its transform Z of length M = N/2, Xₖ = ½(Zₖ + conj Zₘ₋ₖ) + ½uₖ(Zₖ − conj Zₘ₋ₖ) with
+//! uₖ = −i e^{−2πik/N} and m = M; the inverse has the conjugates of uₖ. See `THEORY.md`, eq. (D1).
+
+#![allow(clippy::inline_always)] // these bodies must be compiled inside each version of the loops
 
 use std::f64::consts::TAU;
 use std::fmt;
@@ -18,7 +20,7 @@ pub struct RealTransform {
     values: usize,
     forward: Arc<dyn Fft<f64>>,
     inverse: Arc<dyn Fft<f64>>,
-    /// `u_k` for k ≤ M/2; empty if the number of values is odd.
+    /// uₖ for k ≤ M/2; empty if the number of values is odd.
     turns: Vec<Complex64>,
     work: Vec<Complex64>,
     scratch: Vec<Complex64>,
@@ -58,7 +60,7 @@ impl RealTransform {
         }
     }
 
-    /// `spectrum[k]` = Σ_j `values[j]` e^{−2πijk/N}/N for k ≤ N/2.
+    /// `spectrum[k]` = Σ `values[j]` e^{−2πijk/N}/N for k ≤ N/2.
     pub fn forward(&mut self, values: &[f64], spectrum: &mut [Complex64]) {
         assert_eq!((values.len(), spectrum.len()), (self.values, self.values / 2 + 1), "lengths are fixed");
         let scale = 1.0 / self.values as f64;
@@ -138,7 +140,9 @@ fn butterflies<const INVERSE: bool>(
         bytemuck::cast_slice_mut(&mut high_to[..length - middle - 1]).as_rchunks_mut::<LANES>();
     let (turn_chunks, _) = chunks(&turns[1..length - middle]);
     let mirrored = highs.iter().zip(high_targets).rev();
-    for (((low, low_target), u), (high, high_target)) in lows.iter().zip(low_targets).zip(turn_chunks).zip(mirrored) {
+    for (((low, low_target), u), (high, high_target)) in
+        lows.iter().zip(low_targets).zip(turn_chunks).zip(mirrored)
+    {
         [*low_target, *high_target] = butterfly_of_chunks::<INVERSE>(low, high, u, half);
     }
     for k in 1 + lows.len() * WIDTH..=middle {
@@ -153,7 +157,7 @@ fn butterflies<const INVERSE: bool>(
 /// real and imaginary parts side by side as they lie in memory.
 #[inline(always)]
 fn butterfly_of_chunks<const INVERSE: bool>(low: &Chunk, high: &Chunk, u: &Chunk, half: f64) -> [Chunk; 2] {
-    let sign = |l: usize| if (l % 2 == 0) == INVERSE { 1.0 } else { -1.0 };
+    let sign = |l: usize| if l.is_multiple_of(2) == INVERSE { 1.0 } else { -1.0 };
     let mirror: Chunk = std::array::from_fn(|l| high[LANES - 2 - l + 2 * (l % 2)]);
     let conjugate: Chunk = std::array::from_fn(|l| if l % 2 == 0 { mirror[l] } else { -mirror[l] });
     let sum: Chunk = std::array::from_fn(|l| half * (low[l] + conjugate[l]));
@@ -162,11 +166,9 @@ fn butterfly_of_chunks<const INVERSE: bool>(low: &Chunk, high: &Chunk, u: &Chunk
     let re: Chunk = std::array::from_fn(|l| u[l & !1]);
     let im: Chunk = std::array::from_fn(|l| sign(l) * u[l | 1]);
     let turned: Chunk = std::array::from_fn(|l| re[l] * difference[l] + im[l] * swapped[l]);
-    let below: Chunk = std::array::from_fn(|l| if l % 2 == 0 { sum[l] - turned[l] } else { turned[l] - sum[l] });
-    [
-        std::array::from_fn(|l| sum[l] + turned[l]),
-        std::array::from_fn(|l| below[LANES - 2 - l + 2 * (l % 2)]),
-    ]
+    let below: Chunk =
+        std::array::from_fn(|l| if l % 2 == 0 { sum[l] - turned[l] } else { turned[l] - sum[l] });
+    [std::array::from_fn(|l| sum[l] + turned[l]), std::array::from_fn(|l| below[LANES - 2 - l + 2 * (l % 2)])]
 }
 
 /// The coefficients by chunks of real numbers.

@@ -7,23 +7,23 @@ use multiversion::multiversion;
 /// `1.5 × 2⁵²`: adding it rounds to the nearest integer and leaves that integer in the low bits.
 const ROUNDING: f64 = 6755399441055744.0;
 /// π/2 in parts of 33 bits, whose products with 20-bit integers are exact, and the rest.
-const HALF_PI: [f64; 3] = [1.57079632673412561417, 6.07710050630396597660e-11, 2.02226624879595063154e-21];
+const HALF_PI: [f64; 3] = [1.5707963267341256, 6.077100506303966e-11, 2.0222662487959506e-21];
 /// (sin r/r − 1)/r² and (cos r − 1 + r²/2)/r⁴ in powers of r², best on |r| ≤ π/4; errors below 2⁻⁵⁷.
 const SINE: [f64; 6] = [
-    -1.66666666666666324348e-01,
-    8.33333333332248946124e-03,
-    -1.98412698298579493134e-04,
-    2.75573137070700676789e-06,
-    -2.50507602534068634195e-08,
-    1.58969099521155010221e-10,
+    -0.16666666666666632,
+    0.00833333333332249,
+    -0.0001984126982985795,
+    2.7557313707070068e-06,
+    -2.5050760253406863e-08,
+    1.58969099521155e-10,
 ];
 const COSINE: [f64; 6] = [
-    4.16666666666666019037e-02,
-    -1.38888888888741095749e-03,
-    2.48015872894767294178e-05,
-    -2.75573143513906633035e-07,
-    2.08757232129817482790e-09,
-    -1.13596475577881948265e-11,
+    0.0416666666666666,
+    -0.001388888888887411,
+    2.480158728947673e-05,
+    -2.7557314351390663e-07,
+    2.087572321298175e-09,
+    -1.1359647557788195e-11,
 ];
 
 /// cos θ and sin θ of every angle below 10⁵ in size, to two units in the last place of 1.
@@ -53,7 +53,8 @@ mod tests {
 
     #[test]
     fn agree_with_the_standard_library() {
-        let angles: Vec<f64> = (-40_000..40_000).map(|i| 0.37 * f64::from(i) + 1e-7 * f64::from(i).powi(2)).collect();
+        let angles: Vec<f64> =
+            (-40_000..40_000).map(|i| 0.37 * f64::from(i) + 1e-7 * f64::from(i).powi(2)).collect();
         let (mut cosines, mut sines) = (vec![0.0; angles.len()], vec![0.0; angles.len()]);
         unit_vectors(&angles, &mut cosines, &mut sines);
         for (i, angle) in angles.iter().enumerate() {

@@ -1,5 +1,7 @@
 //! Loops over nodal values and over spectra, compiled for the widest vector registers at hand.
 
+#![allow(clippy::inline_always)] // these bodies must be compiled inside each version of the loops
+
 use multiversion::multiversion;
 
 use super::grid::Complex64;
@@ -78,6 +80,14 @@ pub fn scale_into(out: &mut [f64], factor: f64, x: &[f64]) {
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 pub fn scale(x: &mut [f64], factor: f64) {
     for x in x {
+        *x *= factor;
+    }
+}
+
+/// x ×= factors.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn multiply(x: &mut [f64], factors: &[f64]) {
+    for (x, factor) in x.iter_mut().zip(factors) {
         *x *= factor;
     }
 }

@@ -77,6 +77,8 @@ pub struct Adaptive<S> {
 const ENERGY_ROUNDING: f64 = 1e-13;
 /// A dissipation that would lose this many times the energy that the step lost is an error of the solve.
 const ROUGH: f64 = 2.0;
+/// Part of the energy tolerance below which such an error does not matter.
+const UNSEEN: f64 = 0.1;
 const MOST_POLISHES: usize = 3;
 /// The step size must stay above this many units in the last place of the time.
 const LEAST_STEP_ULPS: f64 = 16.0;
@@ -190,6 +192,7 @@ impl<S: Stepper> Adaptive<S> {
     fn is_rough(&self, finish: &Finish, size: f64) -> bool {
         let Finish::Good { energy, dissipation, .. } = finish else { return false };
         let lost = (self.energy - energy).abs();
-        dissipation * size > ROUGH * lost + self.options.energy_tolerance * energy.abs()
+        let rises = *energy > self.energy + ENERGY_ROUNDING * self.energy.abs();
+        rises || dissipation * size > ROUGH * lost + UNSEEN * self.options.energy_tolerance * energy.abs()
     }
 }

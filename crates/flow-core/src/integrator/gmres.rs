@@ -12,7 +12,19 @@ pub struct Gmres {
     rotations: Vec<[f64; 2]>,
     right: Vec<f64>,
     product: Vec<f64>,
-    preconditioned: Vec<f64>,
+    /// The basis, preconditioned.
+    preconditioned: Vec<Vec<f64>>,
+}
+
+/// How far a residual is to be reduced.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Target {
+    /// Norm below which it shall fall.
+    pub goal: f64,
+    /// Part of itself below which it shall fall.
+    pub reduction: f64,
+    /// Whether its norm is taken with the weights of the problem.
+    pub weighted: bool,
 }
 
 /// What a solve reached.
@@ -36,20 +48,23 @@ impl Gmres {
             rotations: vec![[1.0, 0.0]; most],
             right: vec![0.0; most + 1],
             product: vec![0.0; size],
-            preconditioned: vec![0.0; size],
+            preconditioned: vec![vec![0.0; size]; most],
         }
     }
 
-    /// Solves until the residual is below `goal` and reduced by `reduction`; overwrites `r` by x.
+    /// Solves until the residual meets the target; overwrites `r` by x.
     pub fn solve(
         &mut self,
         problem: &mut dyn Problem,
         norm: &ErrorNorm,
         gamma: f64,
-        [goal, reduction]: [f64; 2],
+        Target { goal, reduction, weighted }: Target,
         r: &mut [f64],
         counters: &mut Counters,
     ) -> Solved {
+        if weighted {
+            problem.weigh(r);
+        }
         let start = norm.norm(r);
         let finite = start.is_finite();
         if !finite || start == 0.0 {
@@ -65,13 +80,20 @@ impl Gmres {
             let k = iterations;
             let (known, next) = self.basis.split_at_mut(k + 1);
             let next = &mut next[0];
-            self.preconditioned.copy_from_slice(&known[k]);
-            problem.precondition(&mut self.preconditioned);
+            let preconditioned = &mut self.preconditioned[k];
+            preconditioned.copy_from_slice(&known[k]);
+            if weighted {
+                problem.unweigh(preconditioned);
+            }
+            problem.precondition(preconditioned);
             counters.solves += 1;
-            problem.jacobian_product(&self.preconditioned, &mut self.product);
+            problem.jacobian_product(preconditioned, &mut self.product);
             counters.jacobian_products += 1;
-            next.copy_from_slice(&self.preconditioned);
+            next.copy_from_slice(preconditioned);
             add_scaled(next, -gamma, &self.product);
+            if weighted {
+                problem.weigh(next);
+            }
             let column = &mut self.hessenberg[k];
             for (entry, v) in column.iter_mut().zip(known.iter()) {
                 *entry = norm.product(next, v);
@@ -100,8 +122,6 @@ impl Gmres {
         }
         counters.krylov_iterations += iterations as u64;
         self.combine(iterations, r);
-        problem.precondition(r);
-        counters.solves += 1;
         Solved { iterations, residual, converged: residual <= goal }
     }
 
@@ -114,8 +134,8 @@ impl Gmres {
             self.right[row] /= self.hessenberg[row][row];
         }
         x.fill(0.0);
-        for (v, factor) in self.basis.iter().zip(&self.right[..iterations]) {
-            add_scaled(x, *factor, v);
+        for (z, factor) in self.preconditioned.iter().zip(&self.right[..iterations]) {
+            add_scaled(x, *factor, z);
         }
     }
 }

@@ -12,7 +12,7 @@ mod statistics;
 pub use adaptive::{Adaptive, AdaptiveOptions, IntegrationError, StepReport};
 pub use bdf::Bdf;
 pub use error_norm::ErrorNorm;
-pub use gmres::Gmres;
+pub use gmres::{Gmres, Target};
 pub use history::History;
 pub use integrals::Integrals;
 pub use newton::{NewtonKrylov, NewtonOutcome, Stage};
@@ -36,6 +36,10 @@ pub trait Problem {
     fn factorise(&mut self, gamma: f64) -> bool;
     /// Overwrites `r` by the approximate solution of (I − γJ)x = r.
     fn precondition(&mut self, r: &mut [f64]);
+    /// Weighs a residual of (I − γJ)x = r by how much its coefficients matter.
+    fn weigh(&self, r: &mut [f64]);
+    /// Undoes [`Problem::weigh`].
+    fn unweigh(&self, r: &mut [f64]);
     /// Tells how many Krylov iterations a solve took; true if the preconditioner changed its kind and
     /// must be prepared anew.
     fn krylov_feedback(&mut self, iterations: usize) -> bool;

@@ -1,7 +1,7 @@
 //! Newton–Krylov iteration for an implicit stage y = a + γ f(y). See `THEORY.md`, eq. (I2).
 
 use super::error_norm::ErrorNorm;
-use super::gmres::Gmres;
+use super::gmres::{Gmres, Target};
 use super::{Counters, Problem};
 use crate::geometry::vectors::add_scaled;
 
@@ -118,7 +118,7 @@ impl NewtonKrylov {
                 problem.rate(y, &mut self.rate);
                 counters.right_hand_sides += 1;
             }
-            let Some(size) = self.correct_by_rate(problem, norm, stage, y, counters) else {
+            let Some(size) = self.correct_by_rate(problem, norm, stage, true, y, counters) else {
                 return false;
             };
             if iteration > 0 {
@@ -135,7 +135,8 @@ impl NewtonKrylov {
         false
     }
 
-    /// One Newton correction of `y`; its size, or none if the linear solve fails.
+    /// One Newton correction of `y`, with the linear residual small in every coefficient; its size, or none if the
+    /// linear solve fails.
     pub fn correct(
         &mut self,
         problem: &mut dyn Problem,
@@ -146,15 +147,17 @@ impl NewtonKrylov {
     ) -> Option<f64> {
         problem.rate(y, &mut self.rate);
         counters.right_hand_sides += 1;
-        self.correct_by_rate(problem, norm, stage, y, counters)
+        self.correct_by_rate(problem, norm, stage, false, y, counters)
     }
 
-    /// As [`NewtonKrylov::correct`], with the rate at `y` known.
+    /// As [`NewtonKrylov::correct`], with the rate at `y` known and the residual small in the weighted norm only if
+    /// that is `weighted`.
     fn correct_by_rate(
         &mut self,
         problem: &mut dyn Problem,
         norm: &ErrorNorm,
         stage: &Stage<'_>,
+        weighted: bool,
         y: &mut [f64],
         counters: &mut Counters,
     ) -> Option<f64> {
@@ -164,8 +167,8 @@ impl NewtonKrylov {
         {
             *correction = constant + stage.gamma * rate - y;
         }
-        let goals = [KRYLOV_SHARE * stage.goal, KRYLOV_REDUCTION];
-        let solved = self.gmres.solve(problem, norm, stage.gamma, goals, &mut self.correction, counters);
+        let target = Target { goal: KRYLOV_SHARE * stage.goal, reduction: KRYLOV_REDUCTION, weighted };
+        let solved = self.gmres.solve(problem, norm, stage.gamma, target, &mut self.correction, counters);
         if problem.krylov_feedback(solved.iterations) {
             self.factorised_gamma = None;
         }

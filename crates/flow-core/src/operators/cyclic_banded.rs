@@ -5,6 +5,8 @@
 //! blocks are matrices with Dirichlet ends); what is left couples the separators, a small dense matrix, which is
 //! pivoted. See `THEORY.md`, eq. (O2).
 
+#![allow(clippy::inline_always)] // these bodies must be compiled inside each version of the loops
+
 use multiversion::multiversion;
 
 use super::small_lu::SmallLu;

@@ -1,7 +1,7 @@
 //! Dense LU factorisation with row pivoting of a small matrix, in place.
 
 use super::cyclic_banded::FactorisationError;
-use crate::geometry::vectors::dot;
+use crate::geometry::vectors::{add_scaled, dot};
 
 /// A square matrix and its factors.
 #[derive(Clone, Debug)]
@@ -37,7 +37,8 @@ impl SmallLu {
         let size = self.size;
         for c in 0..size {
             let magnitude = |row: usize| self.entries[row * size + c].abs();
-            let largest = (c..size).fold(c, |best, row| if magnitude(row) > magnitude(best) { row } else { best });
+            let largest =
+                (c..size).fold(c, |best, row| if magnitude(row) > magnitude(best) { row } else { best });
             self.swaps[c] = largest;
             if largest != c {
                 for k in 0..size {
@@ -53,9 +54,7 @@ impl SmallLu {
             for row in below.chunks_exact_mut(size) {
                 let factor = row[c] / pivot;
                 row[c] = factor;
-                for (value, pivot) in row[c + 1..].iter_mut().zip(pivot_row) {
-                    *value -= factor * pivot;
-                }
+                add_scaled(&mut row[c + 1..], -factor, pivot_row);
             }
         }
         Ok(())

@@ -157,6 +157,14 @@ impl Problem for Membrane {
         self.preconditioner.apply(&mut self.flow, r);
     }
 
+    fn weigh(&self, r: &mut [f64]) {
+        self.preconditioner.weights().weigh(r);
+    }
+
+    fn unweigh(&self, r: &mut [f64]) {
+        self.preconditioner.weights().unweigh(r);
+    }
+
     fn krylov_feedback(&mut self, iterations: usize) -> bool {
         self.mean_iterations += 0.1 * (iterations as f64 - self.mean_iterations);
         if self.automatic && self.mean_iterations > FOURIER_SERVES {

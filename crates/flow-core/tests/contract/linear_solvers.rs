@@ -5,7 +5,7 @@ use std::ops::Range;
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat};
 use flow_core::flow::LinearSolver;
-use flow_core::integrator::{Counters, ErrorNorm, Finish, Gmres, INTEGRALS, Problem};
+use flow_core::integrator::{Counters, ErrorNorm, Finish, Gmres, INTEGRALS, Problem, Target};
 use flow_core::operators::DerivativeFamily;
 use flow_core::run::Membrane;
 
@@ -15,6 +15,10 @@ use crate::vectors::{distance, largest, motion, noise};
 
 /// A linear system with a dense matrix, without a preconditioner.
 struct DenseSystem(Mat<f64>);
+
+fn target(goal: f64, reduction: f64) -> Target {
+    Target { goal, reduction, weighted: false }
+}
 
 impl Problem for DenseSystem {
     fn size(&self) -> usize {
@@ -49,6 +53,10 @@ impl Problem for DenseSystem {
         unreachable!("only linear solves")
     }
 
+    fn weigh(&self, _: &mut [f64]) {}
+
+    fn unweigh(&self, _: &mut [f64]) {}
+
     fn linearise(&mut self, _: &[f64], _: &mut [f64]) {
         unreachable!("only linear solves")
     }
@@ -75,8 +83,14 @@ fn gmres_finds_the_solution_of_a_dense_factorisation() {
         let expected: Vec<f64> = shifted.partial_piv_lu().solve(&right).iter().copied().collect();
         let norm = ErrorNorm::new(&system);
         let mut counters = Counters::default();
-        let solved =
-            Gmres::new(size, size).solve(&mut system, &norm, gamma, [1e-13, 1.0], &mut x, &mut counters);
+        let solved = Gmres::new(size, size).solve(
+            &mut system,
+            &norm,
+            gamma,
+            target(1e-13, 1.0),
+            &mut x,
+            &mut counters,
+        );
         // A full Krylov space is exact up to the condition of the matrix, here below 100.
         let error = distance(&x, &expected) / largest(&expected);
         assert!(error < 1e-11, "size {size}: error {error:.1e}");
@@ -97,7 +111,7 @@ fn gmres_stops_at_the_goal() {
     for goal in [1e-1, 1e-4, 1e-8] {
         let right = noise(1, size);
         let mut x = right.clone();
-        let solved = gmres.solve(&mut system, &norm, 1.0, [goal, 1.0], &mut x, &mut counters);
+        let solved = gmres.solve(&mut system, &norm, 1.0, target(goal, 1.0), &mut x, &mut counters);
         let mut residual = vec![0.0; size];
         system.jacobian_product(&x, &mut residual);
         for i in 0..size {
@@ -149,7 +163,7 @@ fn iterations(solver: LinearSolver, family: DerivativeFamily, terms: [Term; 2], 
     }
     let mut counters = Counters::default();
     let mut gmres = Gmres::new(r.len(), MOST_ITERATIONS);
-    gmres.solve(&mut membrane, &norm, gamma, [f64::INFINITY, 1e-6], &mut r, &mut counters).iterations
+    gmres.solve(&mut membrane, &norm, gamma, target(f64::INFINITY, 1e-6), &mut r, &mut counters).iterations
 }
 
 const MOST_ITERATIONS: usize = 60;

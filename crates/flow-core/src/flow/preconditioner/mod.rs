@@ -4,6 +4,7 @@ mod banded;
 mod dense;
 mod fourier;
 mod length_coupling;
+mod residual_weights;
 
 use serde::{Deserialize, Serialize};
 
@@ -13,6 +14,7 @@ use banded::Banded;
 use dense::Dense;
 use fourier::FourierSymbol;
 use length_coupling::LengthCoupling;
+pub use residual_weights::ResidualWeights;
 
 /// How the linear systems of the implicit steps are preconditioned.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -42,6 +44,7 @@ enum FieldInverse {
 pub struct Preconditioner {
     inverse: FieldInverse,
     coupling: Option<LengthCoupling>,
+    weights: ResidualWeights,
 }
 
 impl Preconditioner {
@@ -63,6 +66,7 @@ impl Preconditioner {
         };
         let whole = matches!(inverse, FieldInverse::Dense(_));
         Self {
+            weights: ResidualWeights::new(flow.spectral_layout()),
             inverse,
             coupling: (length_curvature != 0.0 && !whole)
                 .then(|| LengthCoupling::new(flow.spectral_layout())),
@@ -80,6 +84,7 @@ impl Preconditioner {
     /// # Errors
     /// [`FactorisationError`] if a pivot vanishes; a smaller γ helps.
     pub fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> Result<(), FactorisationError> {
+        self.weights.set(flow, gamma);
         match &mut self.inverse {
             FieldInverse::Fourier(symbol) => symbol.set(flow, gamma, 0),
             FieldInverse::Banded(banded, symbol) => {
@@ -101,6 +106,12 @@ impl Preconditioner {
         if let Some(coupling) = &self.coupling {
             coupling.apply(r);
         }
+    }
+
+    /// Weights of the residuals at the last factorisation.
+    #[must_use]
+    pub fn weights(&self) -> &ResidualWeights {
+        &self.weights
     }
 
     fn apply_to_fields(&mut self, flow: &mut GradientFlow, r: &mut [f64]) {
