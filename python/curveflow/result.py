@@ -120,6 +120,11 @@ class Result:
         return self._record.values("closure_defect")
 
     @cached_property
+    def crossings(self) -> Array:
+        """Number of self-crossings of the curve, shape (frame,)."""
+        return self._record.values("crossings")
+
+    @cached_property
     def curvature(self) -> Array:
         """Curvature, positive on a circle, shape (frame, node)."""
         return self._record.field("curvature")

@@ -2,7 +2,7 @@
 
 use super::record::Record;
 use super::scene::Scene;
-use super::setup::nodal_lines;
+use super::energy_terms::nodal_lines;
 
 /// Points of a polyline.
 const POINTS: usize = 200;
