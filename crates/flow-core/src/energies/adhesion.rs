@@ -205,3 +205,53 @@ impl EnergyTerm for Adhesion {
             2.0 * work / (nodes * length) + 2.0 * self.frozen.energy / (length * length) * motion.length;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A wavy curve with some stretches near each other.
+    fn shape(nodes: usize) -> ShapeFields {
+        let mut shape = ShapeFields { length: 9.0, ..ShapeFields::new(nodes) };
+        for i in 0..nodes {
+            let s = std::f64::consts::TAU * i as f64 / nodes as f64;
+            shape.position[0][i] = 1.5 * s.cos() + 0.3 * (4.0 * s).sin();
+            shape.position[1][i] = 0.4 * s.sin() + 0.2 * (3.0 * s).cos();
+        }
+        shape
+    }
+
+    /// The kernel jumps at every cut-off here: a pair too much or too few would show.
+    #[test]
+    fn the_sum_is_that_over_all_pairs_within_the_cut_off() {
+        let kernel = Expression::parse("exp(-q) + 0.1*q", &["q"]).unwrap();
+        for (nodes, cut_off) in [(64, 0.05), (101, 0.3), (400, 0.2), (400, 1.1), (33, 50.0)] {
+            let shape = shape(nodes);
+            let mut term = Adhesion::new(&kernel, CutOff::At(cut_off), nodes).unwrap();
+            let mut out = ShapeFields::new(nodes);
+            let energy = term.add_shape_energy(&shape, Order::Gradient, &mut out);
+            let [x, y] = shape.positions();
+            let (mut sum, mut pull) = (0.0, [vec![0.0; nodes], vec![0.0; nodes]]);
+            for i in 0..nodes {
+                for j in 0..nodes {
+                    let (dx, dy) = (x[i] - x[j], y[i] - y[j]);
+                    let q: f64 = dx * dx + dy * dy;
+                    if q <= cut_off * cut_off {
+                        let slope = 0.1 - (-q).exp();
+                        sum += (-q).exp() + 0.1 * q;
+                        pull[0][i] += 4.0 * slope * dx;
+                        pull[1][i] += 4.0 * slope * dy;
+                    }
+                }
+            }
+            let weight = shape.length * shape.length / nodes as f64;
+            assert!((energy - weight / nodes as f64 * sum).abs() < 1e-12 * energy, "{nodes}, {cut_off}");
+            for axis in 0..2 {
+                for i in 0..nodes {
+                    let expected = weight * pull[axis][i];
+                    assert!((out.position[axis][i] - expected).abs() < 1e-10, "{nodes}, {cut_off}, node {i}");
+                }
+            }
+        }
+    }
+}

@@ -1,13 +1,13 @@
-//! A curve as the terms see it that depend on where its nodes lie.
+//! A curve as those terms see it that depend on where its nodes lie.
 
-/// Nodal positions and unit tangents by component, and the length: of a curve, of its motion, or the derivative of
+/// Nodal positions and tangents by component, and the length: of a curve, of its motion, or the derivative of
 /// an energy by them. A derivative pairs with a motion as the mean over the nodes of the products, plus the
 /// product of the lengths.
 #[derive(Clone, Debug)]
 pub struct ShapeFields {
     /// Position γ at the nodes; that of a curve has mean zero.
     pub position: [Vec<f64>; 2],
-    /// Unit tangent τ at the nodes.
+    /// Tangent τ at the nodes: ∂_sγ = |Γ|τ. Of unit length up to what the nodes do not resolve.
     pub tangent: [Vec<f64>; 2],
     /// Length |Γ|.
     pub length: f64,

@@ -54,7 +54,10 @@ impl EnergySum {
             .iter()
             .any(|term| term.has_slope_density())
             .then(|| SlopeEnergy::new(layout, grid, derivative));
-        let shape = terms.iter().any(|term| term.has_shape_energy()).then(|| ShapeEnergy::new(layout, grid));
+        let shape = terms
+            .iter()
+            .any(|term| term.has_shape_energy())
+            .then(|| ShapeEnergy::new(layout, grid, derivative));
         Self {
             terms,
             layout,

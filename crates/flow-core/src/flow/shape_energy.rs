@@ -1,13 +1,16 @@
 //! The part of the energy that depends on where the nodes lie, as a function of curvature and length.
 //!
-//! Positions come from the discrete embedding: θ = P K + ⟨K⟩s, τ = (cos θ, sin θ), γ = L P τ with P the Fourier
-//! antiderivative, which is exactly skew. The gradient is pulled back by its exact transpose, so it is the exact
+//! Positions come from the discrete embedding: θ = P K + ⟨K⟩s, τ = c(cos θ, sin θ), γ = L P τ with P the Fourier
+//! antiderivative, which is exactly skew. P loses the sawtooth of K: its angle vanishes at the nodes, but between
+//! them it folds the curve and shortens the mean tangent by c, without which pressure would not feel it and the
+//! sawtooth would grow. The gradient is pulled back by its exact transpose, so it is the exact
 //! derivative of the discrete sum. Built only if a term has it. See `THEORY.md`, eq. (D7).
 
 use super::curve_fields::CurveFields;
 use super::energy_sum::{IntrinsicGradient, mean};
 use crate::energies::{EnergyTerm, Order, ShapeFields};
 use crate::geometry::{Complex64, Embedding, Layout, PeriodicGrid, SpectralLayout};
+use crate::operators::Derivative;
 
 /// Scratch and linearisation of the shape part.
 #[derive(Debug)]
@@ -15,6 +18,7 @@ pub struct ShapeEnergy {
     layout: SpectralLayout,
     grid: PeriodicGrid,
     embedding: Embedding,
+    sawtooth: Option<Sawtooth>,
     shape: ShapeFields,
     dual: ShapeFields,
     frozen: Frozen,
@@ -25,31 +29,67 @@ pub struct ShapeEnergy {
     spectrum: Vec<Complex64>,
 }
 
+/// The sawtooth of K, whose angle has the mean square K̂²/λ for the symbol λ of −D₋D₊: c = exp(−K̂²/2λ).
+#[derive(Clone, Copy, Debug)]
+struct Sawtooth {
+    mode: usize,
+    /// 1/λ.
+    square: f64,
+    /// K̂ of the sawtooth.
+    turning: f64,
+}
+
+impl Sawtooth {
+    fn shortening(self) -> f64 {
+        (-0.5 * self.square * self.turning * self.turning).exp()
+    }
+
+    /// c′/c.
+    fn first(self) -> f64 {
+        -self.square * self.turning
+    }
+
+    /// c″/c.
+    fn second(self) -> f64 {
+        self.square * (self.square * self.turning * self.turning - 1.0)
+    }
+}
+
 /// What the second derivative needs.
 #[derive(Debug)]
 struct Frozen {
     shape: ShapeFields,
     /// Derivative of the energy by positions.
     by_position: [Vec<f64>; 2],
-    /// Its derivative by tangents along the tangents, that through the positions included.
+    /// Its derivative by tangents, that through the positions included, along the tangents and across them.
     along_tangent: Vec<f64>,
+    across_tangent: Vec<f64>,
+    sawtooth: Option<Sawtooth>,
 }
 
 impl ShapeEnergy {
     /// Room for states of `layout`.
     #[must_use]
-    pub fn new(layout: Layout, grid: &PeriodicGrid) -> Self {
+    pub fn new(layout: Layout, grid: &PeriodicGrid, derivative: &Derivative) -> Self {
         let nodes = layout.nodes();
         let shape = ShapeFields::new(nodes);
+        let sawtooth = grid.sawtooth_mode().map(|mode| Sawtooth {
+            mode,
+            square: 1.0 / derivative.minus_laplacian()[mode],
+            turning: 0.0,
+        });
         let frozen = Frozen {
             shape: shape.clone(),
             by_position: shape.position.clone(),
             along_tangent: vec![0.0; nodes],
+            across_tangent: vec![0.0; nodes],
+            sawtooth,
         };
         Self {
             layout: SpectralLayout::new(layout),
             grid: grid.clone(),
             embedding: Embedding::new(nodes),
+            sawtooth,
             dual: shape.clone(),
             motion: shape.clone(),
             shape,
@@ -76,9 +116,16 @@ impl ShapeEnergy {
         self.spectrum.iter_mut().zip(at.spectrum(0)).for_each(|(k, kappa)| *k = kappa * length);
         self.embedding.set_tangent_spectrum(&self.spectrum, length, 0.0);
         self.embedding.set_position(length, [0.0; 2]);
+        let mut shortening = 1.0;
+        if let Some(sawtooth) = &mut self.sawtooth {
+            sawtooth.turning = self.spectrum[sawtooth.mode].re;
+            shortening = sawtooth.shortening();
+        }
+        let (position, tangent) = (self.embedding.position(), self.embedding.tangent());
         for axis in 0..2 {
-            self.shape.tangent[axis].copy_from_slice(self.embedding.tangent()[axis]);
-            self.shape.position[axis].copy_from_slice(self.embedding.position()[axis]);
+            let shorten = |(out, value): (&mut f64, &f64)| *out = shortening * value;
+            self.shape.tangent[axis].iter_mut().zip(tangent[axis]).for_each(shorten);
+            self.shape.position[axis].iter_mut().zip(position[axis]).for_each(shorten);
         }
         self.shape.length = length;
     }
@@ -108,14 +155,20 @@ impl ShapeEnergy {
         for (i, angle) in self.angle.iter_mut().enumerate() {
             *angle = c[i] * by_y[i] - s[i] * by_x[i];
         }
+        for (i, along) in self.values.iter_mut().enumerate() {
+            *along = c[i] * by_x[i] + s[i] * by_y[i];
+        }
         if order >= Order::Hessian {
-            for (i, along) in self.frozen.along_tangent.iter_mut().enumerate() {
-                *along = c[i] * by_x[i] + s[i] * by_y[i];
-            }
             self.frozen.shape.copy_from(&self.shape);
             for axis in 0..2 {
                 self.frozen.by_position[axis].copy_from_slice(&self.dual.position[axis]);
             }
+            self.frozen.along_tangent.copy_from_slice(&self.values);
+            self.frozen.across_tangent.copy_from_slice(&self.angle);
+            self.frozen.sawtooth = self.sawtooth;
+        }
+        if let Some(sawtooth) = self.sawtooth {
+            gradient.spectra[sawtooth.mode].re += sawtooth.first() * mean(&self.values);
         }
         self.pull_back_to_turning(gradient);
         energy
@@ -148,9 +201,19 @@ impl ShapeEnergy {
             self.pull_back_to_tangent(axis, length);
         }
         let ([c, s], [by_x, by_y]) = (self.frozen.shape.tangents(), self.dual.tangents());
+        let (along, across) = (&self.frozen.along_tangent, &self.frozen.across_tangent);
+        let mut shortening = 0.0;
+        if let Some(sawtooth) = self.frozen.sawtooth {
+            let turning = self.layout.spectra(v)[sawtooth.mode].re;
+            for (i, value) in self.values.iter_mut().enumerate() {
+                *value = self.angle[i] * across[i] + c[i] * by_x[i] + s[i] * by_y[i];
+            }
+            let product = sawtooth.second() * turning * mean(along) + sawtooth.first() * mean(&self.values);
+            out.spectra[sawtooth.mode].re += product;
+            shortening = sawtooth.first() * turning;
+        }
         for (i, angle) in self.angle.iter_mut().enumerate() {
-            let turned = *angle * self.frozen.along_tangent[i];
-            *angle = c[i] * by_y[i] - s[i] * by_x[i] - turned;
+            *angle = c[i] * by_y[i] - s[i] * by_x[i] + shortening * across[i] - *angle * along[i];
         }
         self.pull_back_to_turning(out);
     }
@@ -166,10 +229,12 @@ impl ShapeEnergy {
         for (i, angle) in self.angle.iter_mut().enumerate() {
             *angle += turning_per_node * i as f64;
         }
+        let sawtooth = self.frozen.sawtooth;
+        let shortening = sawtooth.map_or(0.0, |at| at.first() * self.layout.spectra(v)[at.mode].re);
         let [c, s] = self.frozen.shape.tangents();
         for (i, angle) in self.angle.iter().enumerate() {
-            self.motion.tangent[0][i] = -s[i] * angle;
-            self.motion.tangent[1][i] = c[i] * angle;
+            self.motion.tangent[0][i] = shortening * c[i] - s[i] * angle;
+            self.motion.tangent[1][i] = shortening * s[i] + c[i] * angle;
         }
         let stretch = self.motion.length / length;
         for axis in 0..2 {

@@ -3,7 +3,8 @@
 use super::scene::{self, Scene};
 use super::setup_error::SetupError;
 use crate::energies::{
-    Adhesion, Agents, Area, Bending, CutOff, EnergyTerm, Length, Local, Membrane, NodalLines, Packing, Regularization,
+    Adhesion, Agents, Area, Bending, CutOff, EnergyTerm, Length, Local, Membrane, NodalLines, Packing,
+    Regularization,
 };
 use crate::expression::{Expression, ExpressionError};
 

@@ -35,7 +35,11 @@ names! {
 
 impl Default for Flow {
     fn default() -> Self {
-        Self { normal_mobility: NormalMobility::Identity, gauge: Gauge::ScaledArcLength, stop_on_contact: false }
+        Self {
+            normal_mobility: NormalMobility::Identity,
+            gauge: Gauge::ScaledArcLength,
+            stop_on_contact: false,
+        }
     }
 }
 

@@ -38,12 +38,14 @@ pub enum AreaTarget {
 
 impl Area {
     pub(super) fn read(mut section: Section<'_>) -> Option<Self> {
-        if !section.has("pressure") {
+        let of_penalty = ["penalty", "target", "target_ratio"];
+        if !section.has("pressure") && of_penalty.iter().any(|key| section.has(key)) {
             return Self::read_penalty(section);
         }
-        let pressure = section.get("pressure");
+        let pressure =
+            section.required("pressure", "pressure = 1.0, or penalty = 10.0 with target_ratio = 1.0");
         let pressure = pressure.and_then(|entry| entry.number(Bound::Finite, "try pressure = 1.0"));
-        for key in ["penalty", "target", "target_ratio"] {
+        for key in of_penalty {
             if section.get(key).is_some() {
                 let remedy = "keep `pressure` alone, or `penalty` with its target";
                 section.fault(key, Fault::Conflict { with: "energy.area.pressure", remedy });
@@ -54,7 +56,8 @@ impl Area {
     }
 
     fn read_penalty(mut section: Section<'_>) -> Option<Self> {
-        let penalty = section.required("penalty", "penalty = 10.0 with target_ratio = 1.0, or pressure = 1.0");
+        let penalty =
+            section.required("penalty", "penalty = 10.0 with target_ratio = 1.0, or pressure = 1.0");
         let penalty = penalty.and_then(|entry| entry.number(Bound::AtLeast(0.0), "try penalty = 10.0"));
         let target = if section.has("target") {
             let absolute = section.get("target");
