@@ -35,12 +35,12 @@ class Result:
 
     @property
     def success(self) -> bool:
-        """Whether the run reached its equilibrium or end time."""
-        return self.status in ("equilibrium", "end-time")
+        """Whether the run reached its equilibrium, its end time, or the contact that it was to stop at."""
+        return self.status in ("equilibrium", "end-time", "contact")
 
     @property
     def status(self) -> str:
-        """Why the run stopped: ``"equilibrium"``, ``"end-time"``, ``"interrupted"`` or ``"failed"``."""
+        """Why the run stopped: ``"equilibrium"``, ``"end-time"``, ``"contact"``, ``"interrupted"`` or ``"failed"``."""
         return self._record.status
 
     @property

@@ -3,7 +3,7 @@
 use super::kernel::Kernel;
 use super::{EnergyTerm, Order, ShapeFields};
 use crate::expression::{Expression, ExpressionError};
-use crate::geometry::CellList;
+use crate::geometry::{self, CellList, dot};
 
 /// Self-interaction of the curve by a kernel of the squared distance q.
 ///
@@ -103,12 +103,11 @@ impl Adhesion {
                     self.frozen.first.extend_from_slice(first);
                     self.frozen.second.extend_from_slice(second);
                 }
-                for ((first, dx), dy) in first.iter().zip(&mut *pull_x).zip(&mut *pull_y) {
-                    (*dx, *dy) = (*dx * first, *dy * first);
-                }
-                sum += value.iter().sum::<f64>();
-                sum_x += take_from(&mut self.sums[0][others.clone()], pull_x);
-                sum_y += take_from(&mut self.sums[1][others], pull_y);
+                sum += geometry::sum(value);
+                sum_x += dot(first, pull_x);
+                sum_y += dot(first, pull_y);
+                take_products(&mut self.sums[0][others.clone()], first, pull_x);
+                take_products(&mut self.sums[1][others], first, pull_y);
             }
             self.sums[0][place] += sum_x;
             self.sums[1][place] += sum_y;
@@ -124,18 +123,24 @@ impl Adhesion {
         for place in 0..x.len() {
             let (mut sum_x, mut sum_y) = (0.0, 0.0);
             for others in self.frozen.cells.later_neighbours(place) {
-                let [pull_x, pull_y] = self.pull.each_mut().map(|pull| &mut pull[..others.len()]);
-                let (first, second) = (&self.frozen.first[pairs..], &self.frozen.second[pairs..]);
-                for (k, j) in others.clone().enumerate() {
-                    let (dx, dy) = (x[place] - x[j], y[place] - y[j]);
-                    let (change_x, change_y) = (v_x[place] - v_x[j], v_y[place] - v_y[j]);
+                let count = others.len();
+                let [pull_x, pull_y] = self.pull.each_mut().map(|pull| &mut pull[..count]);
+                let first = &self.frozen.first[pairs..pairs + count];
+                let second = &self.frozen.second[pairs..pairs + count];
+                let [x_j, y_j] = [&x[others.clone()], &y[others.clone()]];
+                let [v_x_j, v_y_j] = [&v_x[others.clone()], &v_y[others.clone()]];
+                for k in 0..count {
+                    let (dx, dy) = (x[place] - x_j[k], y[place] - y_j[k]);
+                    let (change_x, change_y) = (v_x[place] - v_x_j[k], v_y[place] - v_y_j[k]);
                     let stretch = 2.0 * second[k] * (dx * change_x + dy * change_y);
                     pull_x[k] = first[k] * change_x + stretch * dx;
                     pull_y[k] = first[k] * change_y + stretch * dy;
                 }
-                pairs += others.len();
-                sum_x += take_from(&mut self.sums[0][others.clone()], pull_x);
-                sum_y += take_from(&mut self.sums[1][others], pull_y);
+                pairs += count;
+                sum_x += geometry::sum(pull_x);
+                sum_y += geometry::sum(pull_y);
+                take(&mut self.sums[0][others.clone()], pull_x);
+                take(&mut self.sums[1][others], pull_y);
             }
             self.sums[0][place] += sum_x;
             self.sums[1][place] += sum_y;
@@ -143,10 +148,14 @@ impl Adhesion {
     }
 }
 
-/// sums −= pull; returns the sum of `pull`.
-fn take_from(sums: &mut [f64], pull: &[f64]) -> f64 {
+/// sums −= pull.
+fn take(sums: &mut [f64], pull: &[f64]) {
     sums.iter_mut().zip(pull).for_each(|(sum, pull)| *sum -= pull);
-    pull.iter().sum()
+}
+
+/// sums −= a b.
+fn take_products(sums: &mut [f64], a: &[f64], b: &[f64]) {
+    sums.iter_mut().zip(a).zip(b).for_each(|((sum, a), b)| *sum -= a * b);
 }
 
 impl EnergyTerm for Adhesion {

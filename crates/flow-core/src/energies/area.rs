@@ -34,12 +34,12 @@ fn area(shape: &ShapeFields) -> f64 {
     enclosed_area(shape.positions(), shape.tangents(), shape.length)
 }
 
-/// ½⟨xτ_y − yτ_x⟩ of the positions of one and the tangents of another.
+/// `½⟨xτ_y − yτ_x⟩` of the positions of one and the tangents of another.
 fn per_length(position: &ShapeFields, tangent: &ShapeFields) -> f64 {
     enclosed_area(position.positions(), tangent.tangents(), 1.0)
 }
 
-/// Adds `factor` times the derivative of ½⟨xτ_y − yτ_x⟩ at `shape` by positions and tangents.
+/// Adds `factor` times the derivative of `½⟨xτ_y − yτ_x⟩` at `shape` by positions and tangents.
 fn add_derivative(shape: &ShapeFields, factor: f64, out: &mut ShapeFields) {
     let half = 0.5 * factor;
     let (position, tangent) = (&shape.position, &shape.tangent);

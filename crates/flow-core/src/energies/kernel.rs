@@ -82,7 +82,7 @@ fn end_of_support(kernel: &Expression, first: &Expression, square: f64) -> f64 {
         let values: Vec<f64> = squares.iter().map(|q| of.evaluate(&[*q]).abs()).collect();
         let largest = values.iter().copied().filter(|value| value.is_finite()).fold(0.0, f64::max);
         // What is no number is not small.
-        values.iter().rposition(|value| !(*value <= ROUNDING * largest)).unwrap_or(0)
+        values.iter().rposition(|value| value.is_nan() || *value > ROUNDING * largest).unwrap_or(0)
     };
     let last = last_above(kernel).max(last_above(first));
     squares.get(last + 1).copied().unwrap_or(f64::INFINITY)

@@ -18,6 +18,6 @@ pub use closure::{Closure, ClosureError};
 pub use crossings::{Crossing, Crossings};
 pub use embedding::{Embedding, Placement};
 pub use grid::{Complex64, PeriodicGrid};
-pub use measures::{dot, enclosed_area};
+pub use measures::{dot, enclosed_area, sum};
 pub use spectral::SpectralLayout;
 pub use state::{Layout, StateRef};

@@ -69,8 +69,13 @@ impl Term {
     /// Densities of the states that it is tested on.
     pub fn densities(self) -> usize {
         match self {
-            Self::Bending | Self::BendingAround | Self::Tension | Self::LocalOfCurvature => 0,
-            Self::Pressure | Self::AreaPenalty | Self::Adhesion => 0,
+            Self::Bending
+            | Self::BendingAround
+            | Self::Tension
+            | Self::Pressure
+            | Self::AreaPenalty
+            | Self::Adhesion
+            | Self::LocalOfCurvature => 0,
             Self::Packing | Self::Everything => 2,
             _ => 1,
         }
