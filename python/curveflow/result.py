@@ -35,12 +35,12 @@ class Result:
 
     @property
     def success(self) -> bool:
-        """Whether the run reached its equilibrium or end time."""
-        return self.status in ("equilibrium", "end-time")
+        """Whether the run reached its equilibrium, its end time, or the contact that it was to stop at."""
+        return self.status in ("equilibrium", "end-time", "contact")
 
     @property
     def status(self) -> str:
-        """Why the run stopped: ``"equilibrium"``, ``"end-time"``, ``"interrupted"`` or ``"failed"``."""
+        """Why the run stopped: ``"equilibrium"``, ``"end-time"``, ``"contact"``, ``"interrupted"`` or ``"failed"``."""
         return self._record.status
 
     @property
@@ -118,6 +118,11 @@ class Result:
     def closure_defect(self) -> Array:
         """Gap between the ends of the curve before projection, in units of length, shape (frame,)."""
         return self._record.values("closure_defect")
+
+    @cached_property
+    def crossings(self) -> Array:
+        """Number of self-crossings of the curve, shape (frame,)."""
+        return self._record.values("crossings")
 
     @cached_property
     def curvature(self) -> Array:

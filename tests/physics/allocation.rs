@@ -41,3 +41,14 @@ fn steps_with_the_banded_solver_do_not_allocate() {
     let changes = [("accuracy.nodes", "256"), ("accuracy.linear_solver", "banded")];
     assert_eq!(allocations("three_fold", &changes), 0);
 }
+
+#[test]
+fn steps_with_an_energy_of_positions_do_not_allocate() {
+    assert_eq!(allocations("adhesion", &[]), 0);
+}
+
+#[test]
+fn steps_with_a_cut_off_do_not_allocate() {
+    let changes = [("energy.adhesion.cutoff", "1.2"), ("energy.area.pressure", "0.3")];
+    assert_eq!(allocations("adhesion", &changes), 0);
+}

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use curveflow_tests::{assert_close, last, run, scene, shipped};
+use curveflow_tests::{assert_close, bisection, last, run, scene, shipped};
 use flow_core::run::StopReason;
 
 /// Largest distance of the curvature from that of the circle of the frame's length, relative.
@@ -57,15 +57,88 @@ fn a_circle_with_a_length_penalty_comes_to_rest_where_the_forces_balance() {
         "
     )));
     // 1/(2R²) = β(2πR − σ|Γ₀|), by bisection.
-    let excess = |r: f64| penalty * TAU * (r - ratio * radius) - 0.5 / (r * r);
-    let (mut low, mut high) = (0.5, 3.0);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        *(if excess(middle) > 0.0 { &mut high } else { &mut low }) = middle;
-    }
+    let balance = bisection([0.5, 3.0], |r| penalty * TAU * (r - ratio * radius) - 0.5 / (r * r));
     let frame = last(&record);
     assert_eq!(record.stop_reason, StopReason::Equilibrium);
     assert!(frame.time < 100.0);
     // Equilibrium is called at 1e-9 of the energy, hence within its root, 3e-5, of the radius.
-    assert_close(frame.length, TAU * low, 3e-5);
+    assert_close(frame.length, TAU * balance, 3e-5);
+}
+
+#[test]
+fn a_membrane_on_a_circle_stretches_by_its_compressibility() {
+    let (radius, epsilon) = (1.0_f64, 0.05);
+    let record = run(&scene(&format!(
+        "
+        curve = {{ shape = 'circle', radius = {radius:?} }}
+        density = [{{ name = 'membrane', initial = 1.0, mobility = 'diffusion' }}]
+        energy.bending.rigidity = 1.0
+        energy.membrane = {{ density = 'membrane', epsilon = {epsilon:?} }}
+        time = {{ end = 100.0 }}
+        accuracy = {{ tolerance = 1e-7, nodes = 64 }}
+        "
+    )));
+    // π/R + πR(R₀/R − 1)²/ε is least where R² = R₀² + ε.
+    assert_eq!(record.stop_reason, StopReason::Equilibrium);
+    assert_close(last(&record).length, TAU * (radius * radius + epsilon).sqrt(), 3e-5);
+}
+
+#[test]
+fn a_packed_circle_comes_to_rest_where_the_forces_balance() {
+    let epsilon = 0.2;
+    let record = run(&scene(&format!(
+        "
+        curve = {{ shape = 'circle', radius = 1.0 }}
+        density = [
+            {{ name = 'a', initial = 0.5, mobility = 'diffusion' }},
+            {{ name = 'b', initial = 0.5, mobility = 'diffusion' }},
+        ]
+        energy.bending.rigidity = 1.0
+        energy.length.tension = 1.0
+        energy.packing = {{ matrix = [[1.5, 0.25], [0.25, 2.0]], epsilon = {epsilon:?} }}
+        time = {{ end = 100.0 }}
+        accuracy = {{ tolerance = 1e-7, nodes = 32 }}
+        "
+    )));
+    // x = ρᵀPρ = 1/R², and π/R + 2πR + πR(x − 1)²/ε is least where (x − 1)(1 + 3x) = ε(2 − x). The tension keeps x above
+    // 1: below, the penalty drives the densities apart.
+    let balance = bisection([0.5, 3.0], |r| {
+        let x = 1.0 / (r * r);
+        epsilon * (2.0 - x) - (x - 1.0) * (1.0 + 3.0 * x)
+    });
+    assert_eq!(record.stop_reason, StopReason::Equilibrium);
+    assert_close(last(&record).length, TAU * balance, 3e-5);
+}
+
+#[test]
+fn a_circle_grows_by_what_it_lacks_of_the_preferred_curvature() {
+    let record = run(&scene(
+        "
+        curve = { shape = 'circle', radius = 1.0 }
+        density = [{ name = 'protein', initial = 1.0, mobility = 'diffusion' }]
+        energy.bending = { rigidity = 2.0, preferred_curvature = '0.5*rho' }
+        time = { end = 100.0, stop_at_equilibrium = false }
+        accuracy = { tolerance = 1e-7, nodes = 32 }
+        ",
+    ));
+    // κ = 1/R and c₀ = 1/(2R): the energy πb/(4R) drives R′ = b/(8R³).
+    for frame in &record.frames {
+        assert_close(frame.length, TAU * (1.0 + frame.time).powf(0.25), 1e-5);
+    }
+}
+
+#[test]
+fn a_general_energy_of_the_curvature_needs_no_density() {
+    let record = run(&scene(
+        "
+        curve = { shape = 'circle', radius = 1.0 }
+        energy.local.expression = '0.25*kappa^4'
+        time = { end = 1.0, stop_at_equilibrium = false }
+        accuracy = { tolerance = 1e-8, nodes = 32 }
+        ",
+    ));
+    // E = (π/2)R⁻³, so R′ = (3/4)R⁻⁵.
+    for frame in &record.frames {
+        assert_close(frame.length, TAU * (1.0 + 4.5 * frame.time).powf(1.0 / 6.0), 1e-6);
+    }
 }

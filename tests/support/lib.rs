@@ -84,3 +84,14 @@ pub fn middle(values: &[f64]) -> f64 {
 pub fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
+
+/// The zero of `f`, which is below zero at the first of `ends` and above at the second.
+#[must_use]
+pub fn bisection(ends: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
+    let [mut low, mut high] = ends;
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        *(if f(middle) > 0.0 { &mut high } else { &mut low }) = middle;
+    }
+    low
+}

@@ -70,14 +70,74 @@ const MISTAKES: &[Mistake] = &[
     ),
     (
         "rigidity = 1.0",
-        "rigidity = 1\npreferred_curvature = 0.5",
-        &["line 13", "not available yet in this version"],
+        "rigidity = 1\npreferred_curvature = \"0.5*rho + kappa\"",
+        &["line 13", "`energy.bending.preferred_curvature`", "column 11"],
+    ),
+    (
+        "rigidity = 1.0",
+        "rigidity = 1\npreferred_curvature = \"0.5*rho\"\ndensity = \"lipid\"",
+        &["line 14", "`energy.bending.density`", "\"lipid\"", "did you mean `protein`"],
     ),
     ("[energy.bending]", "[energy.bendng]", &["line 11 | [energy.bendng]", "did you mean `bending`"]),
     (
         "[energy.bending]\nrigidity",
-        "[energy.area]\npressure",
-        &["line 11", "`energy.area` is not available yet", "`bending`"],
+        "[energy.area]\npresure",
+        &["line 12", "unknown key `energy.area.presure`", "did you mean"],
+    ),
+    (
+        "[energy.bending]\nrigidity",
+        "[energy.area]\ntarget = 3.0\npressure",
+        &["line 12", "`energy.area.target` and `energy.area.pressure` exclude", "keep `pressure` alone"],
+    ),
+    (
+        "[energy.bending]\nrigidity",
+        "[energy.area]\npenalty",
+        &["line 11", "`energy.area.target_ratio` is missing", "target = 3.1"],
+    ),
+    (
+        "[energy.bending]\nrigidity = 1.0",
+        "[energy.area]\npenalty = -1.0\ntarget = 0",
+        &["line 12", "`energy.area.penalty` = -1.0", "at least 0", "try penalty"],
+    ),
+    (
+        "[energy.bending]\nrigidity = 1.0",
+        "[energy.area]\npenalty = 1.0\ntarget_ratio = 0",
+        &["line 13", "`energy.area.target_ratio` = 0", "greater than 0", "as target"],
+    ),
+    (
+        "[energy.bending]\nrigidity = 1.0",
+        "[energy.adhesion]\nkernel = \"exp(-r)\"",
+        &["line 12", "`energy.adhesion.kernel`", "column 6", "`q`"],
+    ),
+    (
+        "[energy.bending]\nrigidity = 1.0",
+        "[energy.adhesion]\nkernel = \"exp(-q)\"\ncutoff = 0.0",
+        &["line 13", "`energy.adhesion.cutoff` = 0.0", "greater than 0", "drop the key"],
+    ),
+    (
+        "[energy.bending]\nrigidity = 1.0",
+        "[energy.membrane]\ndensity = \"proten\"\nepsilon = 0.1",
+        &["line 12", "`energy.membrane.density`", "did you mean `protein`"],
+    ),
+    (
+        "[energy.bending]\nrigidity = 1.0",
+        "[energy.membrane]\ndensity = \"protein\"\nepsilon = 0",
+        &["line 13", "`energy.membrane.epsilon` = 0", "greater than 0", "0.01"],
+    ),
+    (
+        "[energy.bending]\nrigidity = 1.0",
+        "[energy.packing]\nmatrix = [[1, 0], [0, 1]]\nepsilon = 0.1",
+        &["line 12", "entries of `energy.packing.matrix` is 2, but it must be 1", "one row for each density"],
+    ),
+    (
+        "[energy.bending]\nrigidity = 1.0",
+        "[energy.packing]\nmatrix = [[-1.5]]\nepsilon = 0.1",
+        &["line 12", "`energy.packing.matrix`", "lowest eigenvalue is -1.5", "greater than 0", "larger"],
+    ),
+    (
+        "[time]",
+        "[flow]\nstop_on_contact = 1\n[time]",
+        &["line 19", "`flow.stop_on_contact` must be true or false", "the integer 1"],
     ),
     (
         "tolerance = 1e-5",
@@ -301,6 +361,79 @@ fn mistakes_in_agents() {
     }
     let without = message(&format!("{}{AGENTS}", GOOD.replace("protein", "lipid")));
     assert!(without.contains("densities are `lipid`"), "{without}");
+}
+
+/// `GOOD` with a second density from line 11 on, and one more table, from line 17 on, instead of the bending.
+fn with_two_densities(table: &str) -> String {
+    let lipid = "[[density]]\nname = 'lipid'\ninitial = 0.5\nmobility = 'diffusion'\n\n[energy.bending]\n";
+    let text = GOOD.replace("[energy.bending]\n", &format!("\n{lipid}"));
+    text.replace("[energy.bending]\nrigidity = 1.0", table)
+}
+
+#[test]
+fn mistakes_with_several_densities() {
+    let packing = |matrix: &str| format!("[energy.packing]\nepsilon = 0.1\nmatrix = {matrix}");
+    let bending =
+        |rest: &str| format!("[energy.bending]\nrigidity = 1.0\npreferred_curvature = 'rho^2'\n{rest}");
+    let cases: [(String, &[&str]); 8] = [
+        (packing("[[1.0, 0.5], [0.5, 1.0]]"), &["no error"]),
+        (bending("density = 'lipid'"), &["no error"]),
+        (
+            bending(""),
+            &["line 17 | [energy.bending]", "`energy.bending.density` is missing", "`rho` stands for"],
+        ),
+        (
+            packing("[\n[1.0, 0.5],\n[0.4, 1.0]]"),
+            &[
+                "line 21",
+                "`energy.packing.matrix.1`",
+                "entry 0 (from 0) is 0.4",
+                "entry 1 of row 0 is 0.5",
+                "symmetric",
+            ],
+        ),
+        (
+            packing("[[1.0, 2.0], [2.0, 1.0]]"),
+            &["line 19", "not positive definite", "eigenvalue is -1.000000", "greater than 0"],
+        ),
+        (
+            packing("[[1.0, 2.0], [2.0]]"),
+            &[
+                "line 19",
+                "entries of `energy.packing.matrix.1` is 1, but it must be 2",
+                "one number for each",
+            ],
+        ),
+        (packing("[[1.0, 'x'], [2.0, 1.0]]"), &["line 19", "`energy.packing.matrix.0.1` must be a number"]),
+        (packing("3.0"), &["line 19", "must be a list", "the number 3.0", "brackets"]),
+    ];
+    for (table, words) in cases {
+        let message = message(&with_two_densities(&table));
+        println!("{message}\n");
+        for word in words {
+            assert!(message.contains(word), "no `{word}` in:\n{message}");
+        }
+    }
+}
+
+#[test]
+fn what_needs_a_density_says_so() {
+    let without = &GOOD[..GOOD.find("[[density]]").unwrap()];
+    let rest = &GOOD[GOOD.find("[energy.length]").unwrap()..];
+    let message = |table: &str| message(&format!("{without}{table}\n{rest}"));
+    let bending = message("[energy.bending]\nrigidity = 1\npreferred_curvature = 'rho'");
+    assert!(
+        bending
+            .contains("`energy.bending.preferred_curvature` depends on `rho`, but the scene has no density")
+    );
+    let packing = message("[energy.packing]\nmatrix = []\nepsilon = 1");
+    assert!(
+        packing.contains(
+            "`energy.packing.matrix` packs the densities of the scene, but the scene has no density"
+        )
+    );
+    assert_eq!(message("[energy.bending]\nrigidity = 1\npreferred_curvature = '1/3'"), "no error");
+    assert_eq!(message("[energy.local]\nexpression = 'kappa^4'"), "no error");
 }
 
 #[test]

@@ -98,6 +98,7 @@ impl Record {
             "length" => |frame| frame.length,
             "area" => |frame| frame.area,
             "closure_defect" => |frame| frame.closure_defect,
+            "crossings" => |frame| frame.crossings,
             _ => return Err(unknown(name)),
         };
         Ok(self.per_frame(py, value))

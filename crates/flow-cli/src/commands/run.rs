@@ -54,7 +54,7 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     }
     let time = record.frames.last().map_or(0.0, |frame| frame.time);
     match record.stop_reason {
-        StopReason::EndTime | StopReason::Equilibrium => Ok(()),
+        StopReason::EndTime | StopReason::Equilibrium | StopReason::Contact => Ok(()),
         StopReason::Interrupted => Err(CliError::Stopped { time, output }),
         StopReason::Failed(message) => Err(CliError::Numerical { message, output }),
     }
@@ -78,6 +78,7 @@ fn closing_line(record: &Record, seconds: f64) -> String {
     let ending = match &record.stop_reason {
         StopReason::Equilibrium => "at equilibrium",
         StopReason::EndTime => "end time reached",
+        StopReason::Contact => "in contact with itself",
         StopReason::Interrupted => "interrupted",
         StopReason::Failed(_) => "failed",
     };

@@ -1,18 +1,66 @@
-//! Bending energy (b/2)∫κ² dσ. See `THEORY.md`, eq. (E1).
+//! Bending energy (b/2)∫(κ − c₀)² dσ. See `THEORY.md`, eq. (E1).
 
 use super::{EnergyTerm, Fields, Jet, Order};
+use crate::expression::{Expression, ExpressionError, Program};
 
 /// Bending energy with constant rigidity.
 #[derive(Clone, Debug)]
 pub struct Bending {
     rigidity: f64,
+    preferred: Preferred,
+}
+
+/// The preferred curvature c₀.
+#[derive(Clone, Debug)]
+enum Preferred {
+    Constant(f64),
+    OfDensity(OfDensity),
+}
+
+/// c₀(ρ) of one density.
+#[derive(Clone, Debug)]
+struct OfDensity {
+    field: usize,
+    program: Program,
+    /// c₀, c₀′ and c₀″ at the nodes.
+    values: [Vec<f64>; 3],
+    scratch: Vec<f64>,
 }
 
 impl Bending {
-    /// Rigidity b ≥ 0, in energy × length.
+    /// Rigidity b ≥ 0, in energy × length, with the preferred curvature c₀ = 0.
     #[must_use]
     pub fn new(rigidity: f64) -> Self {
-        Self { rigidity }
+        Self::around(rigidity, 0.0)
+    }
+
+    /// The same with the preferred curvature `preferred`.
+    #[must_use]
+    pub fn around(rigidity: f64, preferred: f64) -> Self {
+        Self { rigidity, preferred: Preferred::Constant(preferred) }
+    }
+
+    /// The same with the preferred curvature c₀(ρ), a function of the variable 0, the density `density` (counted
+    /// from 0), for `nodes` nodes.
+    ///
+    /// # Errors
+    /// [`ExpressionError`] if a derivative of c₀ is too large.
+    pub fn around_function(
+        rigidity: f64,
+        preferred: &Expression,
+        density: usize,
+        nodes: usize,
+    ) -> Result<Self, ExpressionError> {
+        let first = preferred.derivative(0)?;
+        let second = first.derivative(0)?;
+        let program = Program::compile(&[preferred, &first, &second]);
+        let preferred = OfDensity {
+            field: 1 + density,
+            scratch: vec![0.0; program.scratch_len()],
+            program,
+            values: std::array::from_fn(|_| vec![0.0; nodes]),
+        };
+        Ok(Self { rigidity, preferred: Preferred::OfDensity(preferred) })
     }
 }
 
@@ -26,16 +74,48 @@ impl EnergyTerm for Bending {
     }
 
     fn add_density(&mut self, fields: Fields<'_>, jet: &mut Jet) {
-        let b = self.rigidity;
-        let kappa = fields.get(0);
-        let order = jet.order();
-        let (value, first) = jet.value_and_first_mut(0);
-        for ((value, first), kappa) in value.iter_mut().zip(first).zip(kappa) {
-            *value += 0.5 * b * kappa * kappa;
-            *first += b * kappa;
+        match &mut self.preferred {
+            Preferred::Constant(preferred) => add_constant(self.rigidity, *preferred, fields, jet),
+            Preferred::OfDensity(preferred) => add_of_density(self.rigidity, preferred, fields, jet),
         }
-        if order >= Order::Hessian {
-            jet.second_mut(0, 0).iter_mut().for_each(|second| *second += b);
-        }
+    }
+}
+
+fn add_constant(b: f64, preferred: f64, fields: Fields<'_>, jet: &mut Jet) {
+    let order = jet.order();
+    let (value, first) = jet.value_and_first_mut(0);
+    for ((value, first), kappa) in value.iter_mut().zip(first).zip(fields.get(0)) {
+        let excess = kappa - preferred;
+        *value += 0.5 * b * excess * excess;
+        *first += b * excess;
+    }
+    if order >= Order::Hessian {
+        jet.second_mut(0, 0).iter_mut().for_each(|second| *second += b);
+    }
+}
+
+fn add_of_density(b: f64, preferred: &mut OfDensity, fields: Fields<'_>, jet: &mut Jet) {
+    let (kappa, rho, field) = (fields.get(0), fields.get(preferred.field), preferred.field);
+    let mut outputs = preferred.values.each_mut().map(Vec::as_mut_slice);
+    preferred.program.evaluate(&[rho], &mut outputs, &mut preferred.scratch);
+    let [c, c_1, c_2] = &preferred.values;
+    let (value, by_kappa) = jet.value_and_first_mut(0);
+    for i in 0..kappa.len() {
+        let excess = kappa[i] - c[i];
+        value[i] += 0.5 * b * excess * excess;
+        by_kappa[i] += b * excess;
+    }
+    let by_rho = jet.first_mut(field);
+    for i in 0..kappa.len() {
+        by_rho[i] -= b * (kappa[i] - c[i]) * c_1[i];
+    }
+    if jet.order() < Order::Hessian {
+        return;
+    }
+    jet.second_mut(0, 0).iter_mut().for_each(|second| *second += b);
+    jet.second_mut(0, field).iter_mut().zip(c_1).for_each(|(second, c_1)| *second -= b * c_1);
+    let rho_rho = jet.second_mut(field, field);
+    for i in 0..kappa.len() {
+        rho_rho[i] += b * (c_1[i] * c_1[i] - (kappa[i] - c[i]) * c_2[i]);
     }
 }

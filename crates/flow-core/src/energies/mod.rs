@@ -1,27 +1,38 @@
 //! Terms of the energy `𝓕_h`.
 //!
-//! A term is a sum of up to four parts, and says only what it has: a local density e(κ, ρ), a constant
-//! coefficient of ½∫|∇_sφ|² dσ for a field φ, a local density e(κ, ρ, ∇_sκ, ∇_sρ) at the flux points, and a
-//! function of the length. The flow (`crate::flow`) turns these parts into the gradient and the second
+//! A term is a sum of up to five parts, and says only what it has: a local density e(κ, ρ), a constant
+//! coefficient of ½∫|∇_sφ|² dσ for a field φ, a local density e(κ, ρ, ∇_sκ, ∇_sρ) at the flux points, a
+//! function of the length, and a function of the positions. The flow (`crate::flow`) turns these parts into the gradient and the second
 //! derivative of `𝓕_h` in any gauge, so no term knows about metrics or transforms. See `THEORY.md`, section 3.
 
+mod adhesion;
 mod agents;
+mod area;
 mod bending;
 mod fault;
 mod jet;
+mod kernel;
 mod length;
 mod local;
+mod membrane;
+mod packing;
 mod regularization;
+mod shape;
 
 use std::fmt::Debug;
 
+pub use adhesion::{Adhesion, CutOff};
 pub use agents::{Agents, NodalLines};
+pub use area::Area;
 pub use bending::Bending;
 pub use fault::TermFault;
 pub use jet::{Fields, Jet, Order};
 pub use length::Length;
 pub use local::Local;
+pub use membrane::Membrane;
+pub use packing::Packing;
 pub use regularization::Regularization;
+pub use shape::ShapeFields;
 
 /// Value, first and second derivative of a function of the length.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -65,6 +76,27 @@ pub trait EnergyTerm: Debug + Send + Sync {
     /// The part that depends on the length alone.
     fn of_length(&self, _length: f64) -> LengthJet {
         LengthJet::default()
+    }
+
+    /// Whether [`EnergyTerm::add_shape_energy`] adds anything.
+    fn has_shape_energy(&self) -> bool {
+        false
+    }
+
+    /// Returns the part that depends on where the nodes lie, not on rotations or translations, and adds its
+    /// derivatives by positions, by tangents and by the length at fixed positions and tangents. With
+    /// [`Order::Hessian`] the term also keeps what [`EnergyTerm::add_shape_hessian_product`] needs.
+    fn add_shape_energy(&mut self, _shape: &ShapeFields, _order: Order, _out: &mut ShapeFields) -> f64 {
+        0.0
+    }
+
+    /// Adds the second derivative times `motion`, at the shape `at` that was last evaluated with [`Order::Hessian`].
+    fn add_shape_hessian_product(
+        &mut self,
+        _at: &ShapeFields,
+        _motion: &ShapeFields,
+        _out: &mut ShapeFields,
+    ) {
     }
 
     /// What is wrong with the data that the term was evaluated on last, if anything.

@@ -4,10 +4,11 @@
 //! nodes. See `THEORY.md`, eqs. (D3)–(D5).
 
 use super::curve_fields::CurveFields;
+use super::shape_energy::ShapeEnergy;
 use super::slope_energy::SlopeEnergy;
 use crate::energies::{EnergyTerm, Fields, Jet, LengthJet, Order, TermFault};
 use crate::geometry::vectors::{
-    add_product, add_real_symbol, add_scaled, dot, multiply_into, scale_into, sum, weighted_dot,
+    add_product, add_real_symbol, add_scaled, dot, mean, multiply_into, scale_into, weighted_dot,
 };
 use crate::geometry::{Complex64, Layout, PeriodicGrid, SpectralLayout};
 use crate::operators::Derivative;
@@ -31,6 +32,7 @@ pub struct EnergySum {
     stiffness: Vec<f64>,
     jet: Jet,
     slopes: Option<SlopeEnergy>,
+    shape: Option<ShapeEnergy>,
     /// ⟨|D₊φ|²⟩ of each field at the linearisation.
     frozen_slope_squares: Vec<f64>,
     motion: Vec<f64>,
@@ -54,6 +56,10 @@ impl EnergySum {
             .iter()
             .any(|term| term.has_slope_density())
             .then(|| SlopeEnergy::new(layout, grid, derivative));
+        let shape = terms
+            .iter()
+            .any(|term| term.has_shape_energy())
+            .then(|| ShapeEnergy::new(layout, grid, derivative));
         Self {
             terms,
             layout,
@@ -62,6 +68,7 @@ impl EnergySum {
             stiffness,
             jet: Jet::new(nodes, fields),
             slopes,
+            shape,
             frozen_slope_squares: vec![0.0; fields],
             motion: vec![0.0; nodes * fields],
             motion_spectra: vec![Complex64::default(); grid.modes() * fields],
@@ -123,6 +130,9 @@ impl EnergySum {
         }
         if let Some(slopes) = &mut self.slopes {
             energy += slopes.energy_of(&mut *self.terms[term], at);
+        }
+        if let Some(shape) = &mut self.shape {
+            energy += shape.energy_of(&mut *self.terms[term], at);
         }
         energy
     }
@@ -194,6 +204,9 @@ impl EnergySum {
             by_length -= self.mean_product(at.spectrum(field), p);
         }
         gradient.by_length = by_length;
+        if let Some(shape) = &mut self.shape {
+            energy += shape.add_gradient(&mut self.terms, at, order, gradient);
+        }
         energy
     }
 
@@ -240,10 +253,8 @@ impl EnergySum {
                 self.mean_product(at.spectrum(field), &out.spectra[field * modes..(field + 1) * modes]);
         }
         out.by_length = by_length;
+        if let Some(shape) = &mut self.shape {
+            shape.add_hessian_product(&mut self.terms, v, out);
+        }
     }
-}
-
-/// Mean of nodal values.
-pub(super) fn mean(values: &[f64]) -> f64 {
-    sum(values) / values.len() as f64
 }

@@ -8,6 +8,7 @@ mod gradient_flow;
 mod nodal;
 mod normal_mobility;
 mod preconditioner;
+mod shape_energy;
 mod slope_energy;
 
 pub use curve_fields::CurveFields;

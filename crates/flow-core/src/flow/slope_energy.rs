@@ -2,8 +2,9 @@
 //! derivatives: p += Mᵀe′_φ + D₊ᵀe′_σ/L. Built only if a term has it. See `THEORY.md`, eq. (D6).
 
 use super::curve_fields::CurveFields;
-use super::energy_sum::{IntrinsicGradient, mean};
+use super::energy_sum::IntrinsicGradient;
 use crate::energies::{EnergyTerm, Fields, Jet, Order};
+use crate::geometry::vectors::{mean, mean_of_product};
 use crate::geometry::{Complex64, Layout, PeriodicGrid};
 use crate::operators::Derivative;
 
@@ -186,8 +187,4 @@ fn multiply(out: &mut [Complex64], values: &[Complex64], symbol: &[Complex64]) {
     for ((out, value), symbol) in out.iter_mut().zip(values).zip(symbol) {
         *out = value * symbol;
     }
-}
-
-fn mean_of_product(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() / a.len() as f64
 }

@@ -1,8 +1,6 @@
 //! From curvature and length to tangent angle and position: ∂_sθ = K, ∂_sγ = |Γ| τ(θ).
 //! See `THEORY.md`, eqs. (G3) and (G4).
 
-use std::f64::consts::TAU;
-
 use super::grid::{Complex64, PeriodicGrid};
 use super::unit_vectors::unit_vectors;
 use super::vectors::sum;
@@ -61,7 +59,7 @@ impl Embedding {
     fn tangent_of_spectrum(&mut self, length: f64, angle: f64) {
         let nodes = self.grid.nodes() as f64;
         let turning_per_node = self.spectrum[0].re / nodes;
-        integrate(&self.grid, &mut self.spectrum);
+        self.grid.integrate(&mut self.spectrum);
         self.grid.synthesise(&self.spectrum, &mut self.theta);
         for (i, theta) in self.theta.iter_mut().enumerate() {
             *theta += angle + turning_per_node * i as f64;
@@ -77,7 +75,7 @@ impl Embedding {
     pub fn shape_spectra(&mut self) -> [&[Complex64]; 2] {
         for axis in 0..2 {
             self.grid.transform(&self.tangent[axis], &mut self.shape[axis]);
-            integrate(&self.grid, &mut self.shape[axis]);
+            self.grid.integrate(&mut self.shape[axis]);
         }
         [&self.shape[0], &self.shape[1]]
     }
@@ -115,17 +113,5 @@ impl Embedding {
     #[must_use]
     pub fn gap(&self) -> [f64; 2] {
         self.gap
-    }
-}
-
-/// Divides a spectrum by 2πij: the periodic antiderivative with mean zero.
-fn integrate(grid: &PeriodicGrid, spectrum: &mut [Complex64]) {
-    spectrum[0] = Complex64::default();
-    for (mode, value) in spectrum.iter_mut().enumerate().skip(1) {
-        let inverse = 1.0 / (TAU * mode as f64);
-        *value = Complex64::new(value.im * inverse, -value.re * inverse);
-    }
-    if let Some(sawtooth) = grid.sawtooth_mode() {
-        spectrum[sawtooth] = Complex64::default();
     }
 }

@@ -61,4 +61,17 @@ impl PeriodicGrid {
     pub fn synthesise(&mut self, spectrum: &[Complex64], values: &mut [f64]) {
         self.transform.inverse(spectrum, values);
     }
+
+    /// Divides a spectrum by 2πij: the antiderivative with mean zero. Mean and sawtooth are lost; on nodal values
+    /// the map is exactly skew.
+    pub fn integrate(&self, spectrum: &mut [Complex64]) {
+        spectrum[0] = Complex64::default();
+        for (mode, value) in spectrum.iter_mut().enumerate().skip(1) {
+            let inverse = 1.0 / (TAU * mode as f64);
+            *value = Complex64::new(value.im * inverse, -value.re * inverse);
+        }
+        if let Some(sawtooth) = self.sawtooth_mode() {
+            spectrum[sawtooth] = Complex64::default();
+        }
+    }
 }

@@ -3,7 +3,9 @@
 //! Curves run counter-clockwise; the normal points outwards, so a circle of radius R has curvature +1/R.
 //! The parameter s ∈ [0, 1) has the nodes sᵢ = i/n. See `THEORY.md`, section 1.
 
+mod cells;
 mod closure;
+mod crossings;
 mod embedding;
 mod grid;
 mod measures;
@@ -14,7 +16,9 @@ mod state;
 mod unit_vectors;
 pub mod vectors;
 
+pub use cells::CellList;
 pub use closure::{Closure, ClosureError};
+pub use crossings::{Crossing, Crossings};
 pub use embedding::{Embedding, Placement};
 pub use grid::{Complex64, PeriodicGrid};
 pub use measures::enclosed_area;

@@ -36,6 +36,18 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum::<f64>() + total(lanes)
 }
 
+/// Mean of the values.
+#[must_use]
+pub fn mean(values: &[f64]) -> f64 {
+    sum(values) / values.len() as f64
+}
+
+/// Mean of the products.
+#[must_use]
+pub fn mean_of_product(a: &[f64], b: &[f64]) -> f64 {
+    dot(a, b) / a.len() as f64
+}
+
 /// Sum of `w` Re(ā b) over two spectra with real weights, by lanes as [`sum`].
 #[must_use]
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]

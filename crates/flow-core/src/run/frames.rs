@@ -33,7 +33,7 @@ pub fn frame(
     for (centre, moved) in centre.iter_mut().zip(&integrals[CENTRE]) {
         *centre += moved;
     }
-    let embedding = membrane.closure().embedding();
+    let (embedding, crossings) = membrane.embedding_and_crossings();
     embedding.set_tangent(state.turning_per_parameter(), length, angle);
     embedding.set_position(length, centre);
     let position = embedding.position();
@@ -47,6 +47,7 @@ pub fn frame(
         area: enclosed_area(position, embedding.tangent(), length),
         mass: (0..layout.densities()).map(|density| state.mass(density)).collect(),
         closure_defect,
+        crossings: crossings.count(position) as f64,
         curvature: state.pointwise(0),
         metric: vec![length; layout.nodes()],
         position: position[0].iter().zip(position[1]).map(|(x, y)| [*x, *y]).collect(),

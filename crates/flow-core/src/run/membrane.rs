@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::flow::{GradientFlow, LinearSolver, Preconditioner, Rate};
-use crate::geometry::{Closure, Layout};
+use crate::geometry::{Closure, Crossings, Embedding, Layout};
 use crate::integrator::{Finish, INTEGRALS, Problem};
 
 /// Index of ∫ dissipation dt among the integrals.
@@ -24,6 +24,7 @@ pub struct Membrane {
     automatic: bool,
     mean_iterations: f64,
     closure: Closure,
+    crossings: Crossings,
     turning_number: i32,
     tangential: Vec<f64>,
     closure_defect: f64,
@@ -45,6 +46,7 @@ impl Membrane {
             mean_iterations: 0.0,
             flow,
             closure: Closure::new(nodes),
+            crossings: Crossings::new(nodes),
             turning_number,
             tangential: vec![0.0; nodes],
             closure_defect: 0.0,
@@ -68,6 +70,21 @@ impl Membrane {
     /// The projection onto closed curves.
     pub fn closure(&mut self) -> &mut Closure {
         &mut self.closure
+    }
+
+    /// Tangents and positions of the curve projected last, and what finds its self-crossings.
+    pub fn embedding_and_crossings(&mut self) -> (&mut Embedding, &mut Crossings) {
+        (self.closure.embedding(), &mut self.crossings)
+    }
+
+    /// Number of self-crossings of the spectral state `y`.
+    pub fn crossings(&mut self, y: &[f64]) -> usize {
+        let layout = self.flow.spectral_layout();
+        let length = y[layout.length_index()];
+        let embedding = self.closure.embedding();
+        embedding.set_tangent_spectrum(&layout.spectra(y)[..layout.modes()], length, 0.0);
+        embedding.set_position(length, [0.0; 2]);
+        self.crossings.count(embedding.position())
     }
 
     /// Turning number of the curve.

@@ -1,5 +1,6 @@
 //! From a scene to a finished run.
 
+mod energy_terms;
 mod equilibrium;
 mod frames;
 mod membrane;
@@ -15,6 +16,7 @@ mod setup_error;
 mod simulation;
 
 pub use crate::integrator::{Counters, Rejections};
+pub use energy_terms::nodal_lines;
 pub use equilibrium::Equilibrium;
 pub use membrane::{ANGLE, CENTRE, DISSIPATED, Membrane};
 pub use nodal_lines::nodal_polylines;
@@ -22,6 +24,6 @@ pub use observer::{Observer, Progress, Quiet};
 pub use prediction::{Prediction, predict};
 pub use record::{Frame, Record, StepLog, StopReason};
 pub use scene::{Scene, SceneError};
-pub use setup::{Setup, nodal_lines};
+pub use setup::Setup;
 pub use setup_error::SetupError;
 pub use simulation::{ENERGY_TOLERANCE_SHARE, Simulation, run};

@@ -1,8 +1,8 @@
 //! The nodal lines of a record's agents as polylines, for pictures.
 
+use super::energy_terms::nodal_lines;
 use super::record::Record;
 use super::scene::Scene;
-use super::setup::nodal_lines;
 
 /// Points of a polyline.
 const POINTS: usize = 200;

@@ -23,6 +23,8 @@ pub struct Frame {
     pub mass: Vec<f64>,
     /// Gap |γ(1) − γ(0)| of the curve before projection, in units of length.
     pub closure_defect: f64,
+    /// Number of self-crossings of the curve.
+    pub crossings: f64,
     /// Curvature κ.
     pub curvature: Vec<f64>,
     /// Metric g = |∂γ/∂s|.
@@ -59,6 +61,8 @@ pub enum StopReason {
     EndTime,
     /// The dissipation fell below the bound for equilibrium.
     Equilibrium,
+    /// The curve crossed itself more often than at the start, and the scene says to stop then.
+    Contact,
     /// An observer asked for it (signal, Ctrl-C, limit).
     Interrupted,
     /// The integration failed; the last good state is the last frame. Holds the message.
@@ -66,12 +70,13 @@ pub enum StopReason {
 }
 
 impl StopReason {
-    /// Short name, as written to files: `end-time`, `equilibrium`, `interrupted` or `failed`.
+    /// Short name, as written to files: `end-time`, `equilibrium`, `contact`, `interrupted` or `failed`.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
             Self::EndTime => "end-time",
             Self::Equilibrium => "equilibrium",
+            Self::Contact => "contact",
             Self::Interrupted => "interrupted",
             Self::Failed(_) => "failed",
         }
@@ -83,6 +88,7 @@ impl StopReason {
         match self {
             Self::EndTime => "the end time was reached",
             Self::Equilibrium => "the dissipation fell below the bound for equilibrium",
+            Self::Contact => "the curve came to cross itself more often than at the start",
             Self::Interrupted => "an observer asked the run to stop",
             Self::Failed(message) => message,
         }

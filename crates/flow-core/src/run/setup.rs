@@ -1,16 +1,16 @@
 //! From a checked scene to a flow and its initial state.
 
+use super::energy_terms::{Initial, energy_terms};
 use super::membrane::Membrane;
 use super::resolution;
 use super::scene::{self, Scene};
 use super::setup_error::SetupError;
-use crate::energies::{Agents, Bending, EnergyTerm, Length, Local, NodalLines, Regularization};
-use crate::expression::{Expression, ExpressionError, Program};
+use crate::expression::Program;
 use crate::flow::{
     DensityMobility, EnergySum, FlowMap, GradientFlow, Identity, LinearSolver, NormalMobility,
 };
 use crate::geometry::shapes::{Resampled, Shape};
-use crate::geometry::{Closure, Layout, PeriodicGrid, Placement, SpectralLayout};
+use crate::geometry::{Closure, Embedding, Layout, PeriodicGrid, Placement, SpectralLayout, enclosed_area};
 use crate::operators::{Derivative, DerivativeFamily};
 
 /// A flow with its initial state.
@@ -45,7 +45,9 @@ impl Setup {
         let (state, closure_defect) = initial_state(scene, &curve, layout, &mut closure)?;
         let grid = PeriodicGrid::new(nodes);
         let derivative = Derivative::new(family(scene.accuracy.derivative), &grid);
-        let terms = energy_terms(scene, initial_length, nodes)?;
+        let area = area(&state, layout, &curve);
+        let initial = Initial { length: initial_length, area };
+        let terms = energy_terms(scene, initial, nodes)?;
         let energy = EnergySum::new(terms, layout, &grid, &derivative);
         let map = FlowMap::new(layout, &grid, &derivative);
         let mobilities = scene.density.iter().map(|density| density_mobility(density.mobility)).collect();
@@ -105,6 +107,15 @@ fn initial_state(
     }
 }
 
+/// Area enclosed by the closed initial curve, as the energies measure it.
+fn area(state: &[f64], layout: Layout, curve: &Resampled) -> f64 {
+    let spectral = SpectralLayout::new(layout);
+    let mut embedding = Embedding::new(layout.nodes());
+    embedding.set_tangent_spectrum(&spectral.spectra(state)[..spectral.modes()], curve.length, 0.0);
+    embedding.set_position(curve.length, [0.0; 2]);
+    enclosed_area(embedding.position(), embedding.tangent(), curve.length)
+}
+
 /// The curve that a scene names.
 #[must_use]
 pub fn shape(shape: &scene::Shape) -> Shape {
@@ -150,75 +161,4 @@ fn linear_solver(solver: scene::LinearSolver) -> LinearSolver {
         scene::LinearSolver::Banded => LinearSolver::Banded,
         scene::LinearSolver::Dense => LinearSolver::Dense,
     }
-}
-
-/// The terms of the energy that the scene names.
-fn energy_terms(
-    scene: &Scene,
-    initial_length: f64,
-    nodes: usize,
-) -> Result<Vec<Box<dyn EnergyTerm>>, SetupError> {
-    let energy = &scene.energy;
-    let mut terms: Vec<Box<dyn EnergyTerm>> = Vec::new();
-    if let Some(bending) = &energy.bending {
-        terms.push(Box::new(Bending::new(bending.rigidity)));
-    }
-    if let Some(regularization) = &energy.regularization {
-        terms.push(Box::new(Regularization::new(regularization.delta)));
-    }
-    if let Some(length) = &energy.length {
-        terms.push(Box::new(self::length(length, initial_length)));
-    }
-    if let Some(agents) = &energy.agents {
-        let term = self::agents(scene, agents, nodes);
-        terms.push(Box::new(term.map_err(|fault| SetupError::Expression { key: "energy.agents", fault })?));
-    }
-    if let Some(local) = &energy.local {
-        let term = self::local(scene, local, nodes)
-            .map_err(|fault| SetupError::Expression { key: "energy.local.expression", fault });
-        terms.push(Box::new(term?));
-    }
-    Ok(terms)
-}
-
-fn length(length: &scene::Length, initial_length: f64) -> Length {
-    match length {
-        scene::Length::Tension { tension } => Length::Tension(*tension),
-        scene::Length::Penalty { penalty, target } => Length::Penalty {
-            penalty: *penalty,
-            target: match target {
-                scene::LengthTarget::Absolute(target) => *target,
-                scene::LengthTarget::Ratio(ratio) => ratio * initial_length,
-            },
-        },
-    }
-}
-
-/// The nodal lines of a scene's agents, as functions of κ (variable 0) and ρ (variable 1).
-///
-/// # Errors
-/// [`ExpressionError`] never happens for formulas that were parsed once already.
-pub fn nodal_lines(agents: &scene::Agents) -> Result<NodalLines, ExpressionError> {
-    let parse = |formula: &scene::Formula| Expression::parse(&formula.text(), &["kappa", "rho"]);
-    Ok(NodalLines {
-        preferred_curvature: parse(&agents.preferred_curvature)?,
-        low_density: parse(&agents.low_density)?,
-        high_density: parse(&agents.high_density)?,
-    })
-}
-
-fn agents(scene: &Scene, agents: &scene::Agents, nodes: usize) -> Result<Agents, ExpressionError> {
-    // The scene was checked: the density exists.
-    let density = scene.density.iter().position(|density| density.name == agents.density).unwrap_or_default();
-    Agents::new(density, agents.epsilon, agents.delta, &nodal_lines(agents)?, nodes)
-}
-
-fn local(scene: &Scene, local: &scene::Local, nodes: usize) -> Result<Local, ExpressionError> {
-    let names: Vec<&str> =
-        std::iter::once("kappa").chain(scene.density.iter().map(|density| density.name.as_str())).collect();
-    let slopes: Vec<String> = names.iter().map(|name| format!("{name}_sigma")).collect();
-    let mut variables = names.clone();
-    variables.extend(slopes.iter().map(String::as_str));
-    let expression = Expression::parse(&local.expression.text(), &variables)?;
-    Local::new(&expression, names.len(), nodes)
 }

@@ -34,6 +34,8 @@ pub struct Simulation {
     /// Gap of the last accepted state before its projection.
     closure_defect: f64,
     record: Record,
+    /// Self-crossings at the start, if more of them end the run.
+    allowed_crossings: Option<usize>,
     stopped: Option<StopReason>,
 }
 
@@ -65,6 +67,7 @@ impl Simulation {
         }
         let start = Start { energy, angle: placement.angle, centre: placement.centre };
         let first = frame(&mut membrane, 0.0, &mut state, [0.0; INTEGRALS], &start, Some(closure_defect));
+        let allowed_crossings = first.crossings as usize;
         let mut counters = Counters::default();
         let clock = Instant::now();
         let stepper =
@@ -101,6 +104,7 @@ impl Simulation {
             frame_times,
             scratch: state,
             closure_defect,
+            allowed_crossings: scene.flow.stop_on_contact.then_some(allowed_crossings),
             membrane,
             record,
             stopped: None,
@@ -128,6 +132,8 @@ impl Simulation {
                     self.stop(StopReason::Failed(message));
                 } else if self.tell(&report, observer).is_break() {
                     self.stop(StopReason::Interrupted);
+                } else if self.in_contact() {
+                    self.stop(StopReason::Contact);
                 } else if self.at_rest(&report) {
                     self.stop(StopReason::Equilibrium);
                 } else if report.time >= self.end {
@@ -136,6 +142,11 @@ impl Simulation {
             }
         }
         self.stopped.is_none()
+    }
+
+    fn in_contact(&mut self) -> bool {
+        let state = self.integration.stepper().state();
+        self.allowed_crossings.is_some_and(|allowed| self.membrane.crossings(state) > allowed)
     }
 
     fn at_rest(&mut self, report: &StepReport) -> bool {

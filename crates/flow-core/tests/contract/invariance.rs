@@ -114,4 +114,22 @@ proptest! {
             prop_assert!(error <= ROUNDING, "{family:?}: {error:.1e}");
         }
     }
+
+    #[test]
+    fn areas_scale_with_the_square_of_the_size(
+        blob in any_blob(), nodes in any_nodes(), factor in 0.1_f64..10.0,
+    ) {
+        for family in DerivativeFamily::ALL {
+            let state = blob.state(nodes, 0);
+            let layout = state.layout;
+            let mut scaled = state.y.clone();
+            scaled[layout.length_index()] *= factor;
+            let plain = outcome(Term::Pressure, family, layout, &state.y);
+            let scaled = outcome(Term::Pressure, family, layout, &scaled);
+            let expected = plain.energy * factor.powi(2);
+            prop_assert!((scaled.energy - expected).abs() <= ENERGY_ROUNDING * expected.abs());
+            let error = distance(&scaled.velocity, &plain.velocity) / largest(&plain.velocity);
+            prop_assert!(error <= ROUNDING, "{family:?}: {error:.1e}");
+        }
+    }
 }

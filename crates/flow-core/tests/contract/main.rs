@@ -9,8 +9,10 @@ mod invariance;
 mod linear_solvers;
 mod pointwise_force;
 mod second_derivative;
+mod stability;
 mod states;
 mod terms;
+
 mod vectors;
 
 use proptest::test_runner::{Config, RngSeed};

@@ -1,6 +1,9 @@
 //! Every term of the energy, and flows of it.
 
-use flow_core::energies::{Agents, Bending, EnergyTerm, Length, Local, NodalLines, Regularization};
+use flow_core::energies::{
+    Adhesion, Agents, Area, Bending, CutOff, EnergyTerm, Length, Local, Membrane, NodalLines, Packing,
+    Regularization,
+};
 use flow_core::expression::Expression;
 use flow_core::flow::{DensityMobility, EnergySum, FlowMap, GradientFlow, Identity};
 use flow_core::geometry::{Layout, PeriodicGrid};
@@ -10,10 +13,19 @@ use flow_core::operators::{Derivative, DerivativeFamily};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Term {
     Bending,
+    BendingAround,
+    BendingOfDensity,
     Regularization,
     Tension,
     Penalty,
+    Pressure,
+    AreaPenalty,
+    Adhesion,
+    ShortAdhesion,
+    Membrane,
+    Packing,
     Agents,
+    LocalOfCurvature,
     Local,
     LocalWithSlopes,
     /// All terms; two densities, with the agents on the second.
@@ -34,12 +46,21 @@ const OF_TWO_DENSITIES: &str = "0.3*kappa^2*protein*lipid + 0.1*kappa_sigma^2*(1
 
 impl Term {
     /// Every term.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 17] = [
         Self::Bending,
+        Self::BendingAround,
+        Self::BendingOfDensity,
         Self::Regularization,
         Self::Tension,
         Self::Penalty,
+        Self::Pressure,
+        Self::AreaPenalty,
+        Self::Adhesion,
+        Self::ShortAdhesion,
+        Self::Membrane,
+        Self::Packing,
         Self::Agents,
+        Self::LocalOfCurvature,
         Self::Local,
         Self::LocalWithSlopes,
         Self::Everything,
@@ -48,8 +69,14 @@ impl Term {
     /// Densities of the states that it is tested on.
     pub fn densities(self) -> usize {
         match self {
-            Self::Bending | Self::Tension => 0,
-            Self::Everything => 2,
+            Self::Bending
+            | Self::BendingAround
+            | Self::Tension
+            | Self::Pressure
+            | Self::AreaPenalty
+            | Self::Adhesion
+            | Self::LocalOfCurvature => 0,
+            Self::Packing | Self::Everything => 2,
             _ => 1,
         }
     }
@@ -58,21 +85,57 @@ impl Term {
     pub fn build(self, layout: Layout) -> Vec<Box<dyn EnergyTerm>> {
         match self {
             Self::Bending => vec![Box::new(Bending::new(0.7))],
+            Self::BendingAround => vec![Box::new(Bending::around(0.7, 0.4))],
+            Self::BendingOfDensity => vec![Box::new(bending_of_density(0, layout.nodes()))],
             Self::Regularization => vec![Box::new(Regularization::new(DELTA))],
             Self::Tension => vec![Box::new(Length::Tension(0.6))],
             Self::Penalty => vec![Box::new(Length::Penalty { penalty: PENALTY, target: TARGET })],
+            Self::Pressure => vec![Box::new(Area::Pressure(0.8))],
+            Self::AreaPenalty => vec![Box::new(Area::Penalty { penalty: 2.0, target: 2.5 })],
+            Self::Adhesion => vec![Box::new(adhesion(CutOff::Automatic { length: 6.0 }, layout.nodes()))],
+            Self::ShortAdhesion => vec![Box::new(adhesion(CutOff::At(SHORT), layout.nodes()))],
+            Self::Membrane => vec![Box::new(Membrane::new(0, 0.3))],
+            Self::Packing => vec![Box::new(packing(layout.nodes()))],
             Self::Agents => vec![Box::new(agents(0, layout.nodes()))],
+            Self::LocalOfCurvature => {
+                vec![Box::new(local("0.2*kappa^4 + exp(0.1*kappa)", &[], layout.nodes()))]
+            }
             Self::Local => vec![Box::new(local(WITHOUT_SLOPES, &["protein"], layout.nodes()))],
             Self::LocalWithSlopes => vec![Box::new(local(WITH_SLOPES, &["protein"], layout.nodes()))],
             Self::Everything => {
-                let single = [Self::Bending, Self::Regularization, Self::Tension, Self::Penalty];
+                let mut single = Self::ALL.to_vec();
+                single.retain(|term| *term != Self::Everything && term.densities() == 0);
+                single.extend([Self::Penalty, Self::Regularization, Self::Packing, Self::Membrane]);
                 let mut all: Vec<_> = single.iter().flat_map(|term| term.build(layout)).collect();
+                all.push(Box::new(bending_of_density(1, layout.nodes())));
                 all.push(Box::new(agents(1, layout.nodes())));
                 all.push(Box::new(local(OF_TWO_DENSITIES, &["lipid", "protein"], layout.nodes())));
                 all
             }
         }
     }
+}
+
+/// Cut-off of [`Term::ShortAdhesion`], across which the kernel is smooth enough for differences.
+const SHORT: f64 = 0.8;
+
+/// A kernel with a core and a well; at [`SHORT`] it has fallen below 1e-18.
+fn adhesion(cut_off: CutOff, nodes: usize) -> Adhesion {
+    let text = match cut_off {
+        CutOff::At(_) => "0.5*(1 - q/0.015)*exp(-q/0.015)",
+        CutOff::Automatic { .. } => "0.5*(1 - q/0.25)*exp(-q/0.25)",
+    };
+    let kernel = Expression::parse(text, &["q"]).expect("a formula");
+    Adhesion::new(&kernel, cut_off, nodes).expect("short derivatives")
+}
+
+fn bending_of_density(density: usize, nodes: usize) -> Bending {
+    let preferred = Expression::parse("1.3 - 2*rho + 0.4*rho^3", &["rho"]).expect("a formula");
+    Bending::around_function(0.9, &preferred, density, nodes).expect("short derivatives")
+}
+
+fn packing(nodes: usize) -> Packing {
+    Packing::new(&[vec![1.4, 0.3], vec![0.3, 0.9]], 0.2, nodes)
 }
 
 /// The agents of `scenes/three_fold.toml`.

@@ -10,7 +10,7 @@ use std::fmt::Debug;
 
 use super::super::gradient_flow::GradientFlow;
 use super::fourier::mobility_symbol;
-use crate::geometry::vectors::sum;
+use crate::geometry::vectors::mean;
 use crate::geometry::{Complex64, Layout, PeriodicGrid};
 use crate::operators::{CyclicBanded, FactorisationError};
 
@@ -135,7 +135,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         let (coarse, modes) = (self.grid.nodes(), self.grid.modes());
         for field in 0..F {
             let second = flow.energy_terms().jet().second(field, field);
-            let mean = (sum(second) / second.len() as f64).max(0.0);
+            let mean = (mean(second)).max(0.0);
             for mode in 0..modes.min(self.fine_modes) {
                 let exact = flow.grid_and_derivative().1.minus_laplacian()[mode];
                 let mass = self.mass[mode];

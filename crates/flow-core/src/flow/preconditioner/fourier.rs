@@ -1,7 +1,7 @@
 //! The symbol of I − γJ with coefficients frozen at their means: one small block per mode.
 
 use super::super::gradient_flow::GradientFlow;
-use crate::geometry::vectors::sum;
+use crate::geometry::vectors;
 use crate::geometry::{Complex64, Layout};
 
 /// Inverse blocks, one `fields × fields` matrix per mode, row by row.
@@ -46,7 +46,7 @@ impl FourierSymbol {
         let (fields, length) = (self.fields, flow.frozen().length());
         self.laplacian.copy_from_slice(flow.grid_and_derivative().1.minus_laplacian());
         let jet = flow.energy_terms().jet();
-        let mean = |a: usize, b: usize| sum(jet.second(a, b)) / jet.second(a, b).len() as f64;
+        let mean = |a: usize, b: usize| vectors::mean(jet.second(a, b));
         let (means, block) = (&mut self.means, &mut self.block);
         for a in 0..fields {
             for b in 0..fields {

@@ -35,6 +35,7 @@ pub(super) static FRAME_VALUES: &[Entry<Frame, f64>] = entries![Frame => f64:
     length, "length of the curve", "length_unit";
     area, "enclosed area, signed", "length_unit2";
     closure_defect, "gap between the ends of the curve before projection", "length_unit";
+    crossings, "number of self-crossings", "1";
 ];
 
 /// Fields with one entry per frame and node.

@@ -134,7 +134,7 @@ impl Content {
     fn stop_reason(&self) -> Result<StopReason, Failure> {
         let name = self.text("stop_reason")?;
         let failed = StopReason::Failed(self.text("message")?);
-        [StopReason::EndTime, StopReason::Equilibrium, StopReason::Interrupted, failed]
+        [StopReason::EndTime, StopReason::Equilibrium, StopReason::Contact, StopReason::Interrupted, failed]
             .into_iter()
             .find(|reason| reason.name() == name)
             .ok_or_else(|| ("stop_reason".to_owned(), format!("it is \"{name}\"").into()))

@@ -102,6 +102,12 @@ pub enum Fault {
     Conflict { with: &'static str, remedy: &'static str },
     /// A density that the scene does not have.
     UnknownDensity { value: String, suggestion: Option<String>, densities: Vec<String> },
+    /// A term that needs a density in a scene without any.
+    NoDensity { needs: &'static str },
+    /// A matrix whose entries differ from those across the diagonal.
+    NotSymmetric { indices: [usize; 2], value: f64, other: f64 },
+    /// A symmetric matrix whose lowest eigenvalue is not above zero.
+    NotPositiveDefinite { lowest: f64 },
     /// Two densities of the same name.
     DuplicateDensity { value: String, first: usize },
     /// A density named like a variable, constant or function of expressions.

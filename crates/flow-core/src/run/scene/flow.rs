@@ -12,6 +12,9 @@ pub struct Flow {
     pub normal_mobility: NormalMobility,
     /// The rule for the tangential velocity.
     pub gauge: Gauge,
+    /// Whether the run stops once the curve crosses itself more often than at the start; crossings are legal unless
+    /// this is set.
+    pub stop_on_contact: bool,
 }
 
 names! {
@@ -32,7 +35,11 @@ names! {
 
 impl Default for Flow {
     fn default() -> Self {
-        Self { normal_mobility: NormalMobility::Identity, gauge: Gauge::ScaledArcLength }
+        Self {
+            normal_mobility: NormalMobility::Identity,
+            gauge: Gauge::ScaledArcLength,
+            stop_on_contact: false,
+        }
     }
 }
 
@@ -44,10 +51,12 @@ impl Flow {
         let normal_mobility =
             section.get("normal_mobility").and_then(|entry| entry.choice(&planned_mobilities));
         let gauge = section.get("gauge").and_then(|entry| entry.choice(&["graded", "co-moving"]));
+        let stop_on_contact = section.get("stop_on_contact").and_then(|entry| entry.boolean());
         section.finish();
         Self {
             normal_mobility: normal_mobility.unwrap_or(default.normal_mobility),
             gauge: gauge.unwrap_or(default.gauge),
+            stop_on_contact: stop_on_contact.unwrap_or(default.stop_on_contact),
         }
     }
 }

@@ -135,6 +135,17 @@ fn sentence(key: &str, fault: &Fault) -> String {
         Fault::UnknownDensity { value, suggestion, densities } => {
             unknown_density(key, &plain(value), suggestion.as_deref(), densities)
         }
+        Fault::NoDensity { needs } => {
+            format!("`{key}` {needs}, but the scene has no density; add a [[density]] table, or drop the key")
+        }
+        Fault::NotSymmetric { indices: [i, j], value, other } => format!(
+            "`{key}`: entry {j} (from 0) is {value}, but entry {i} of row {j} is {other}; the matrix must be \
+             symmetric, write the same number in both places"
+        ),
+        Fault::NotPositiveDefinite { lowest } => format!(
+            "`{key}` is not positive definite: its lowest eigenvalue is {lowest:.6}, it must be greater than 0; \
+             make the diagonal larger, or the other entries smaller"
+        ),
         Fault::DuplicateDensity { value, first } => format!(
             "`{key}` = \"{value}\" is already the name of density.{first}; give each density a name of its own"
         ),

@@ -44,7 +44,10 @@ pub use accuracy::{Accuracy, Derivative, LinearSolver, Nodes};
 pub use curve::{Curve, Shape};
 pub use density::{Density, DensityMobility};
 pub use document::{MAX_SCENE_BYTES, Scene};
-pub use energy::{Agents, Bending, Energy, Length, LengthTarget, Local, Regularization};
+pub use energy::{
+    Adhesion, Agents, Area, AreaTarget, Bending, Energy, Length, LengthTarget, Local, Membrane, Packing,
+    Regularization,
+};
 pub use error::{Bound, Fault, Place, Problem, SceneError};
 pub use flow::{Flow, Gauge, NormalMobility};
 pub use formula::Formula;

@@ -5,5 +5,9 @@ pub(super) const SHIPPED: &[(&str, &str)] = &[
     ("three_fold", include_str!("../../../../../scenes/three_fold.toml")),
     ("three_fold_sharp", include_str!("../../../../../scenes/three_fold_sharp.toml")),
     ("length_penalty", include_str!("../../../../../scenes/length_penalty.toml")),
+    ("membrane_penalty", include_str!("../../../../../scenes/membrane_penalty.toml")),
+    ("adhesion", include_str!("../../../../../scenes/adhesion.toml")),
+    ("figure_eight", include_str!("../../../../../scenes/figure_eight.toml")),
+    ("blend", include_str!("../../../../../scenes/blend.toml")),
     ("circle", include_str!("../../../../../scenes/circle.toml")),
 ];

@@ -4,11 +4,10 @@
 
 use serde::Serialize;
 
-use crate::run::scene::entry::Entry;
-use crate::run::scene::error::{Bound, Fault};
+use super::known::known_density;
+use crate::run::scene::error::Bound;
 use crate::run::scene::formula::Formula;
 use crate::run::scene::section::Section;
-use crate::run::scene::suggest::nearest;
 
 /// Parameters of the curvature agents.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -51,16 +50,4 @@ impl Agents {
             high_density: high?,
         })
     }
-}
-
-/// The name of a density that the scene has.
-fn known_density(entry: &Entry<'_>, densities: &[String]) -> Option<String> {
-    let value = entry.text()?.to_owned();
-    if densities.contains(&value) {
-        return Some(value);
-    }
-    let only = (densities.len() == 1).then(|| densities[0].clone());
-    let suggestion = nearest(&value, densities.iter().map(String::as_str)).map(str::to_owned).or(only);
-    entry.fault(Fault::UnknownDensity { value, suggestion, densities: densities.to_vec() });
-    None
 }

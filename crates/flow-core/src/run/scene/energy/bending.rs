@@ -1,8 +1,11 @@
-//! `[energy.bending]`: `∫ (b/2) κ² dσ`.
+//! `[energy.bending]`: `∫ (b/2) (κ − c₀)² dσ`.
 
 use serde::Serialize;
 
-use crate::run::scene::error::Bound;
+use super::known::known_density;
+use crate::run::scene::entry::Entry;
+use crate::run::scene::error::{Bound, Fault};
+use crate::run::scene::formula::Formula;
 use crate::run::scene::section::Section;
 
 /// Parameters of the bending energy.
@@ -10,14 +13,44 @@ use crate::run::scene::section::Section;
 pub struct Bending {
     /// Bending rigidity b ≥ 0, in energy × length.
     pub rigidity: f64,
+    /// Preferred curvature c₀, a number or an expression of `rho`; 0 if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub preferred_curvature: Option<Formula>,
+    /// Name of the density ρ that c₀ depends on, if it does: the only one of the scene unless given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub density: Option<String>,
 }
 
 impl Bending {
-    pub(super) fn read(mut section: Section<'_>) -> Option<Self> {
+    pub(super) fn read(mut section: Section<'_>, densities: &[String]) -> Option<Self> {
         let rigidity = section.required("rigidity", "rigidity = 1.0");
         let rigidity = rigidity.and_then(|entry| entry.number(Bound::AtLeast(0.0), "try rigidity = 1.0"));
-        section.planned("preferred_curvature");
+        let preferred = section.get("preferred_curvature");
+        let preferred = preferred.map_or(Some(None), |entry| of_density(&entry, densities).map(Some));
+        let depends = preferred.as_ref().is_some_and(|preferred| {
+            preferred.as_ref().is_some_and(|formula| formula.expression().depends_on(0))
+        });
+        let density = if depends && densities.len() > 1 {
+            section.required("density", "density = \"protein\", the density that `rho` stands for")
+        } else {
+            section.get("density")
+        };
+        let density = match density {
+            Some(entry) => known_density(&entry, densities).map(Some),
+            None if depends && densities.len() > 1 => None,
+            None => Some(densities.first().filter(|_| depends).cloned()),
+        };
         section.finish();
-        Some(Self { rigidity: rigidity? })
+        Some(Self { rigidity: rigidity?, preferred_curvature: preferred?, density: density? })
     }
+}
+
+/// A formula of `rho`, which must have a meaning if it occurs.
+fn of_density(entry: &Entry<'_>, densities: &[String]) -> Option<Formula> {
+    let formula = entry.formula(&["rho"])?;
+    if densities.is_empty() && formula.expression().depends_on(0) {
+        entry.fault(Fault::NoDensity { needs: "depends on `rho`" });
+        return None;
+    }
+    Some(formula)
 }

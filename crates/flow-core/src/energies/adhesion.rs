@@ -1,0 +1,267 @@
+//! Adhesion and repulsion: ∬ G(|γ(σ) − γ(σ′)|²) dσ dσ′ with the user's G. See `THEORY.md`, eq. (E7).
+
+use super::kernel::Kernel;
+use super::{EnergyTerm, Order, ShapeFields};
+use crate::expression::{Expression, ExpressionError};
+use crate::geometry::CellList;
+use crate::geometry::vectors::{self, dot};
+
+/// Self-interaction of the curve by a kernel of the squared distance q.
+///
+/// On the grid (|Γ|/n)² Σᵢⱼ G(|γᵢ − γⱼ|²), i = j included: the sum over all pairs within the cut-off, found by a list of
+/// cells, with exact derivatives.
+#[derive(Clone, Debug)]
+pub struct Adhesion {
+    kernel: Kernel,
+    cells: CellList,
+    frozen: Frozen,
+    /// Scratch: squared distances from one node, G, G′ and G″ there, two components.
+    squares: Vec<f64>,
+    values: [Vec<f64>; 3],
+    pull: [Vec<f64>; 2],
+    /// Sums at the sorted nodes.
+    sums: [Vec<f64>; 2],
+    motion: [Vec<f64>; 2],
+}
+
+/// What the second derivative needs.
+#[derive(Clone, Debug)]
+struct Frozen {
+    cells: CellList,
+    energy: f64,
+    /// Derivative by the positions.
+    by_position: [Vec<f64>; 2],
+    /// G′ and G″ of all pairs, in the order in which they are met.
+    first: Vec<f64>,
+    second: Vec<f64>,
+}
+
+/// Distance beyond which the kernel is taken as zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CutOff {
+    /// This distance.
+    At(f64),
+    /// Where G and G′ have fallen below the rounding of their largest values, if they do so near this length.
+    Automatic {
+        /// Length of the curve.
+        length: f64,
+    },
+}
+
+impl Adhesion {
+    /// The interaction by `kernel`, a function of the variable 0, q, for `nodes` nodes.
+    ///
+    /// # Errors
+    /// [`ExpressionError`] if a derivative of the kernel is too large.
+    pub fn new(kernel: &Expression, cut_off: CutOff, nodes: usize) -> Result<Self, ExpressionError> {
+        let field = || vec![0.0; nodes];
+        let pair = || [field(), field()];
+        Ok(Self {
+            kernel: Kernel::new(kernel, cut_off)?,
+            cells: CellList::new(nodes),
+            frozen: Frozen {
+                cells: CellList::new(nodes),
+                energy: 0.0,
+                by_position: pair(),
+                first: Vec::new(),
+                second: Vec::new(),
+            },
+            squares: field(),
+            values: [field(), field(), field()],
+            pull: pair(),
+            sums: pair(),
+            motion: pair(),
+        })
+    }
+
+    /// Distance beyond which the kernel is taken as zero; infinite if it does not decay.
+    #[must_use]
+    pub fn cut_off(&self) -> f64 {
+        self.kernel.cut_off()
+    }
+
+    /// Σ_{i<j} G, with Σⱼ G′(γᵢ − γⱼ) in `sums`.
+    fn sum_pairs(&mut self, order: Order) -> f64 {
+        self.sums.iter_mut().for_each(|sum| sum.fill(0.0));
+        let [x, y] = self.cells.position();
+        let mut sum = 0.0;
+        for place in 0..x.len() {
+            let (mut sum_x, mut sum_y) = (0.0, 0.0);
+            for others in self.cells.later_neighbours(place) {
+                let count = others.len();
+                let [pull_x, pull_y] = self.pull.each_mut().map(|pull| &mut pull[..count]);
+                let squares = &mut self.squares[..count];
+                let separations = x[others.clone()].iter().zip(&y[others.clone()]);
+                for (((square, dx), dy), (x_j, y_j)) in
+                    squares.iter_mut().zip(&mut *pull_x).zip(&mut *pull_y).zip(separations)
+                {
+                    (*dx, *dy) = (x[place] - x_j, y[place] - y_j);
+                    *square = *dx * *dx + *dy * *dy;
+                }
+                let [value, first, second] = self.values.each_mut().map(|values| &mut values[..count]);
+                self.kernel.evaluate(squares, order, [&mut *value, &mut *first, &mut *second]);
+                if order >= Order::Hessian {
+                    self.frozen.first.extend_from_slice(first);
+                    self.frozen.second.extend_from_slice(second);
+                }
+                sum += vectors::sum(value);
+                sum_x += dot(first, pull_x);
+                sum_y += dot(first, pull_y);
+                take_products(&mut self.sums[0][others.clone()], first, pull_x);
+                take_products(&mut self.sums[1][others], first, pull_y);
+            }
+            self.sums[0][place] += sum_x;
+            self.sums[1][place] += sum_y;
+        }
+        sum
+    }
+
+    /// Change of Σⱼ G′(γᵢ − γⱼ) under `motion`, both at the sorted nodes.
+    fn sum_motions(&mut self) {
+        self.sums.iter_mut().for_each(|sum| sum.fill(0.0));
+        let ([x, y], [v_x, v_y]) = (self.frozen.cells.position(), &self.motion);
+        let mut pairs = 0;
+        for place in 0..x.len() {
+            let (mut sum_x, mut sum_y) = (0.0, 0.0);
+            for others in self.frozen.cells.later_neighbours(place) {
+                let count = others.len();
+                let [pull_x, pull_y] = self.pull.each_mut().map(|pull| &mut pull[..count]);
+                let first = &self.frozen.first[pairs..pairs + count];
+                let second = &self.frozen.second[pairs..pairs + count];
+                let [x_j, y_j] = [&x[others.clone()], &y[others.clone()]];
+                let [v_x_j, v_y_j] = [&v_x[others.clone()], &v_y[others.clone()]];
+                for k in 0..count {
+                    let (dx, dy) = (x[place] - x_j[k], y[place] - y_j[k]);
+                    let (change_x, change_y) = (v_x[place] - v_x_j[k], v_y[place] - v_y_j[k]);
+                    let stretch = 2.0 * second[k] * (dx * change_x + dy * change_y);
+                    pull_x[k] = first[k] * change_x + stretch * dx;
+                    pull_y[k] = first[k] * change_y + stretch * dy;
+                }
+                pairs += count;
+                sum_x += vectors::sum(pull_x);
+                sum_y += vectors::sum(pull_y);
+                take(&mut self.sums[0][others.clone()], pull_x);
+                take(&mut self.sums[1][others], pull_y);
+            }
+            self.sums[0][place] += sum_x;
+            self.sums[1][place] += sum_y;
+        }
+    }
+}
+
+/// sums −= pull.
+fn take(sums: &mut [f64], pull: &[f64]) {
+    sums.iter_mut().zip(pull).for_each(|(sum, pull)| *sum -= pull);
+}
+
+/// sums −= a b.
+fn take_products(sums: &mut [f64], a: &[f64], b: &[f64]) {
+    sums.iter_mut().zip(a).zip(b).for_each(|((sum, a), b)| *sum -= a * b);
+}
+
+impl EnergyTerm for Adhesion {
+    fn name(&self) -> &'static str {
+        "adhesion"
+    }
+
+    fn has_shape_energy(&self) -> bool {
+        true
+    }
+
+    fn add_shape_energy(&mut self, shape: &ShapeFields, order: Order, out: &mut ShapeFields) -> f64 {
+        let (nodes, length) = (self.squares.len() as f64, shape.length);
+        self.cells.sort(shape.positions(), self.kernel.cut_off());
+        if order >= Order::Hessian {
+            self.frozen.first.clear();
+            self.frozen.second.clear();
+        }
+        let pairs = self.sum_pairs(order);
+        let energy = (length / nodes).powi(2) * (nodes * self.kernel.at_zero() + 2.0 * pairs);
+        let factor = 4.0 * length * length / nodes;
+        for (place, &node) in self.cells.order().iter().enumerate() {
+            for axis in 0..2 {
+                out.position[axis][node] += factor * self.sums[axis][place];
+                if order >= Order::Hessian {
+                    self.frozen.by_position[axis][node] = factor * self.sums[axis][place];
+                }
+            }
+        }
+        out.length += 2.0 * energy / length;
+        if order >= Order::Hessian {
+            self.frozen.energy = energy;
+            std::mem::swap(&mut self.frozen.cells, &mut self.cells);
+        }
+        energy
+    }
+
+    fn add_shape_hessian_product(&mut self, at: &ShapeFields, motion: &ShapeFields, out: &mut ShapeFields) {
+        let (nodes, length) = (self.squares.len() as f64, at.length);
+        for (place, &node) in self.frozen.cells.order().iter().enumerate() {
+            for axis in 0..2 {
+                self.motion[axis][place] = motion.position[axis][node];
+            }
+        }
+        self.sum_motions();
+        let (factor, stretch) = (4.0 * length * length / nodes, 2.0 * motion.length / length);
+        let mut work = 0.0;
+        for (place, &node) in self.frozen.cells.order().iter().enumerate() {
+            for axis in 0..2 {
+                let frozen = self.frozen.by_position[axis][node];
+                out.position[axis][node] += factor * self.sums[axis][place] + stretch * frozen;
+                work += frozen * motion.position[axis][node];
+            }
+        }
+        out.length +=
+            2.0 * work / (nodes * length) + 2.0 * self.frozen.energy / (length * length) * motion.length;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A wavy curve with some stretches near each other.
+    fn shape(nodes: usize) -> ShapeFields {
+        let mut shape = ShapeFields { length: 9.0, ..ShapeFields::new(nodes) };
+        for i in 0..nodes {
+            let s = std::f64::consts::TAU * i as f64 / nodes as f64;
+            shape.position[0][i] = 1.5 * s.cos() + 0.3 * (4.0 * s).sin();
+            shape.position[1][i] = 0.4 * s.sin() + 0.2 * (3.0 * s).cos();
+        }
+        shape
+    }
+
+    /// The kernel jumps at every cut-off here: a pair too much or too few would show.
+    #[test]
+    fn the_sum_is_that_over_all_pairs_within_the_cut_off() {
+        let kernel = Expression::parse("exp(-q) + 0.1*q", &["q"]).unwrap();
+        for (nodes, cut_off) in [(64, 0.05), (101, 0.3), (400, 0.2), (400, 1.1), (33, 50.0)] {
+            let shape = shape(nodes);
+            let mut term = Adhesion::new(&kernel, CutOff::At(cut_off), nodes).unwrap();
+            let mut out = ShapeFields::new(nodes);
+            let energy = term.add_shape_energy(&shape, Order::Gradient, &mut out);
+            let [x, y] = shape.positions();
+            let (mut sum, mut pull) = (0.0, [vec![0.0; nodes], vec![0.0; nodes]]);
+            for i in 0..nodes {
+                for j in 0..nodes {
+                    let (dx, dy) = (x[i] - x[j], y[i] - y[j]);
+                    let q: f64 = dx * dx + dy * dy;
+                    if q <= cut_off * cut_off {
+                        let slope = 0.1 - (-q).exp();
+                        sum += (-q).exp() + 0.1 * q;
+                        pull[0][i] += 4.0 * slope * dx;
+                        pull[1][i] += 4.0 * slope * dy;
+                    }
+                }
+            }
+            let weight = shape.length * shape.length / nodes as f64;
+            assert!((energy - weight / nodes as f64 * sum).abs() < 1e-12 * energy, "{nodes}, {cut_off}");
+            for axis in 0..2 {
+                for i in 0..nodes {
+                    let expected = weight * pull[axis][i];
+                    assert!((out.position[axis][i] - expected).abs() < 1e-10, "{nodes}, {cut_off}, node {i}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! The kernel of a self-interaction: a function of the squared distance, zero beyond a cut-off.
+
+use super::Order;
+use super::adhesion::CutOff;
+use crate::expression::{Expression, ExpressionError, Program};
+
+/// G(q) with its derivatives.
+#[derive(Clone, Debug)]
+pub(super) struct Kernel {
+    gradient: Program,
+    hessian: Program,
+    at_zero: f64,
+    largest_square: f64,
+    scratch: Vec<f64>,
+}
+
+/// Part of its largest value below which a kernel is rounding.
+const ROUNDING: f64 = 1e-16;
+/// Squared distances tried, per octave, and octaves below and above the squared length of the curve.
+const PER_OCTAVE: i32 = 16;
+const OCTAVES_BELOW: i32 = 40;
+const OCTAVES_ABOVE: i32 = 10;
+
+impl Kernel {
+    /// A kernel of the variable 0.
+    pub(super) fn new(kernel: &Expression, cut_off: CutOff) -> Result<Self, ExpressionError> {
+        let first = kernel.derivative(0)?;
+        let second = first.derivative(0)?;
+        let gradient = Program::compile(&[kernel, &first]);
+        let hessian = Program::compile(&[kernel, &first, &second]);
+        let scratch = vec![0.0; gradient.scratch_len().max(hessian.scratch_len())];
+        let largest_square = match cut_off {
+            CutOff::At(distance) => distance * distance,
+            CutOff::Automatic { length } => end_of_support(kernel, &first, length * length),
+        };
+        Ok(Self { gradient, hessian, at_zero: kernel.evaluate(&[0.0]), largest_square, scratch })
+    }
+
+    /// Distance beyond which the kernel is zero.
+    pub(super) fn cut_off(&self) -> f64 {
+        self.largest_square.sqrt()
+    }
+
+    /// G(0).
+    pub(super) fn at_zero(&self) -> f64 {
+        self.at_zero
+    }
+
+    /// G, G′ and, for second derivatives, G″ at the squared distances `squares`.
+    pub(super) fn evaluate(
+        &mut self,
+        squares: &[f64],
+        order: Order,
+        [value, first, second]: [&mut [f64]; 3],
+    ) {
+        if order < Order::Hessian {
+            self.gradient.evaluate(&[squares], &mut [&mut *value, &mut *first], &mut self.scratch);
+        } else {
+            let mut outputs = [&mut *value, &mut *first, &mut *second];
+            self.hessian.evaluate(&[squares], &mut outputs, &mut self.scratch);
+            cut(squares, self.largest_square, second);
+        }
+        cut(squares, self.largest_square, value);
+        cut(squares, self.largest_square, first);
+    }
+}
+
+/// Zero beyond the cut-off, whatever stood there.
+fn cut(squares: &[f64], largest_square: f64, values: &mut [f64]) {
+    for (value, square) in values.iter_mut().zip(squares) {
+        *value = if *square > largest_square { 0.0 } else { *value };
+    }
+}
+
+/// The squared distance beyond which a kernel and its derivative stay below rounding; infinite if there is none
+/// near `square`.
+fn end_of_support(kernel: &Expression, first: &Expression, square: f64) -> f64 {
+    let tried = |k: i32| square * (f64::from(k) / f64::from(PER_OCTAVE)).exp2();
+    let range = -OCTAVES_BELOW * PER_OCTAVE..=OCTAVES_ABOVE * PER_OCTAVE;
+    let squares: Vec<f64> = std::iter::once(0.0).chain(range.map(tried)).collect();
+    let last_above = |of: &Expression| {
+        let values: Vec<f64> = squares.iter().map(|q| of.evaluate(&[*q]).abs()).collect();
+        let largest = values.iter().copied().filter(|value| value.is_finite()).fold(0.0, f64::max);
+        // What is no number is not small.
+        values.iter().rposition(|value| value.is_nan() || *value > ROUNDING * largest).unwrap_or(0)
+    };
+    let last = last_above(kernel).max(last_above(first));
+    squares.get(last + 1).copied().unwrap_or(f64::INFINITY)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn automatic(text: &str) -> f64 {
+        let kernel = Expression::parse(text, &["q"]).unwrap();
+        Kernel::new(&kernel, CutOff::Automatic { length: 8.0 }).unwrap().cut_off()
+    }
+
+    #[test]
+    fn the_automatic_cut_off_is_where_the_kernel_is_rounding() {
+        // 4q e^{−4q} = 1e-16 at q = 10.2, and the derivative a little later.
+        let distance = automatic("10*(1 - q/0.25)*exp(-q/0.25)");
+        assert!((3.1..3.6).contains(&distance), "{distance}");
+        assert!((0.37..0.42).contains(&automatic("exp(-q/0.004)")));
+        assert_eq!(automatic("q"), f64::INFINITY);
+        assert_eq!(automatic("1/(1 + q)"), f64::INFINITY);
+        assert!(automatic("0").is_finite());
+    }
+}

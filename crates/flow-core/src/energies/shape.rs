@@ -1,0 +1,50 @@
+//! A curve as those terms see it that depend on where its nodes lie.
+
+/// Nodal positions and tangents by component, and the length: of a curve, of its motion, or the derivative of
+/// an energy by them. A derivative pairs with a motion as the mean over the nodes of the products, plus the
+/// product of the lengths.
+#[derive(Clone, Debug)]
+pub struct ShapeFields {
+    /// Position γ at the nodes; that of a curve has mean zero.
+    pub position: [Vec<f64>; 2],
+    /// Tangent τ at the nodes: ∂_sγ = |Γ|τ. Of unit length up to what the nodes do not resolve.
+    pub tangent: [Vec<f64>; 2],
+    /// Length |Γ|.
+    pub length: f64,
+}
+
+impl ShapeFields {
+    /// Zeros at `nodes` nodes.
+    #[must_use]
+    pub fn new(nodes: usize) -> Self {
+        let field = || [vec![0.0; nodes], vec![0.0; nodes]];
+        Self { position: field(), tangent: field(), length: 0.0 }
+    }
+
+    /// Sets all to zero.
+    pub fn clear(&mut self) {
+        self.position.iter_mut().chain(&mut self.tangent).for_each(|field| field.fill(0.0));
+        self.length = 0.0;
+    }
+
+    /// Takes the values of `other`, without allocating.
+    pub fn copy_from(&mut self, other: &Self) {
+        for axis in 0..2 {
+            self.position[axis].copy_from_slice(&other.position[axis]);
+            self.tangent[axis].copy_from_slice(&other.tangent[axis]);
+        }
+        self.length = other.length;
+    }
+
+    /// Positions by component.
+    #[must_use]
+    pub fn positions(&self) -> [&[f64]; 2] {
+        [&self.position[0], &self.position[1]]
+    }
+
+    /// Tangents by component.
+    #[must_use]
+    pub fn tangents(&self) -> [&[f64]; 2] {
+        [&self.tangent[0], &self.tangent[1]]
+    }
+}

@@ -1,0 +1,271 @@
+//! The part of the energy that depends on where the nodes lie, as a function of curvature and length.
+//!
+//! Positions come from the discrete embedding: θ = P K + ⟨K⟩s, τ = c(cos θ, sin θ), γ = L P τ with P the Fourier
+//! antiderivative, which is exactly skew. P loses the sawtooth of K: its angle vanishes at the nodes, but between
+//! them it folds the curve and shortens the mean tangent by c, without which pressure would not feel it and the
+//! sawtooth would grow. The gradient is pulled back by its exact transpose, so it is the exact
+//! derivative of the discrete sum. Built only if a term has it. See `THEORY.md`, eq. (D7).
+
+use super::curve_fields::CurveFields;
+use super::energy_sum::IntrinsicGradient;
+use crate::energies::{EnergyTerm, Order, ShapeFields};
+use crate::geometry::vectors::{mean, mean_of_product};
+use crate::geometry::{Complex64, Embedding, Layout, PeriodicGrid, SpectralLayout};
+use crate::operators::Derivative;
+
+/// Scratch and linearisation of the shape part.
+#[derive(Debug)]
+pub struct ShapeEnergy {
+    layout: SpectralLayout,
+    grid: PeriodicGrid,
+    embedding: Embedding,
+    sawtooth: Option<Sawtooth>,
+    shape: ShapeFields,
+    dual: ShapeFields,
+    frozen: Frozen,
+    motion: ShapeFields,
+    /// Derivative by the tangent angle, or its motion.
+    angle: Vec<f64>,
+    values: Vec<f64>,
+    spectrum: Vec<Complex64>,
+}
+
+/// The sawtooth of K, whose angle has the mean square K̂²/λ for the symbol λ of −D₋D₊: c = exp(−K̂²/2λ).
+#[derive(Clone, Copy, Debug)]
+struct Sawtooth {
+    mode: usize,
+    /// 1/λ.
+    square: f64,
+    /// K̂ of the sawtooth.
+    turning: f64,
+}
+
+impl Sawtooth {
+    fn shortening(self) -> f64 {
+        (-0.5 * self.square * self.turning * self.turning).exp()
+    }
+
+    /// c′/c.
+    fn first(self) -> f64 {
+        -self.square * self.turning
+    }
+
+    /// c″/c.
+    fn second(self) -> f64 {
+        self.square * (self.square * self.turning * self.turning - 1.0)
+    }
+}
+
+/// What the second derivative needs.
+#[derive(Debug)]
+struct Frozen {
+    shape: ShapeFields,
+    /// Derivative of the energy by positions.
+    by_position: [Vec<f64>; 2],
+    /// Its derivative by tangents, that through the positions included, along the tangents and across them.
+    along_tangent: Vec<f64>,
+    across_tangent: Vec<f64>,
+    sawtooth: Option<Sawtooth>,
+}
+
+impl ShapeEnergy {
+    /// Room for states of `layout`.
+    #[must_use]
+    pub fn new(layout: Layout, grid: &PeriodicGrid, derivative: &Derivative) -> Self {
+        let nodes = layout.nodes();
+        let shape = ShapeFields::new(nodes);
+        let sawtooth = grid.sawtooth_mode().map(|mode| Sawtooth {
+            mode,
+            square: 1.0 / derivative.minus_laplacian()[mode],
+            turning: 0.0,
+        });
+        let frozen = Frozen {
+            shape: shape.clone(),
+            by_position: shape.position.clone(),
+            along_tangent: vec![0.0; nodes],
+            across_tangent: vec![0.0; nodes],
+            sawtooth,
+        };
+        Self {
+            layout: SpectralLayout::new(layout),
+            grid: grid.clone(),
+            embedding: Embedding::new(nodes),
+            sawtooth,
+            dual: shape.clone(),
+            motion: shape.clone(),
+            shape,
+            frozen,
+            angle: vec![0.0; nodes],
+            values: vec![0.0; nodes],
+            spectrum: vec![Complex64::default(); grid.modes()],
+        }
+    }
+
+    /// Energy of one term at a state.
+    pub fn energy_of(&mut self, term: &mut dyn EnergyTerm, at: &CurveFields) -> f64 {
+        if !term.has_shape_energy() {
+            return 0.0;
+        }
+        self.embed(at);
+        self.dual.clear();
+        term.add_shape_energy(&self.shape, Order::Gradient, &mut self.dual)
+    }
+
+    /// Positions and tangents of a state; mean angle and mean position are zero, on which no energy depends.
+    fn embed(&mut self, at: &CurveFields) {
+        let length = at.length();
+        self.spectrum.iter_mut().zip(at.spectrum(0)).for_each(|(k, kappa)| *k = kappa * length);
+        self.embedding.set_tangent_spectrum(&self.spectrum, length, 0.0);
+        self.embedding.set_position(length, [0.0; 2]);
+        let mut shortening = 1.0;
+        if let Some(sawtooth) = &mut self.sawtooth {
+            sawtooth.turning = self.spectrum[sawtooth.mode].re;
+            shortening = sawtooth.shortening();
+        }
+        let (position, tangent) = (self.embedding.position(), self.embedding.tangent());
+        for axis in 0..2 {
+            let shorten = |(out, value): (&mut f64, &f64)| *out = shortening * value;
+            self.shape.tangent[axis].iter_mut().zip(tangent[axis]).for_each(shorten);
+            self.shape.position[axis].iter_mut().zip(position[axis]).for_each(shorten);
+        }
+        self.shape.length = length;
+    }
+
+    /// Adds to the gradient, by K and by the length at fixed K; returns the energy.
+    pub fn add_gradient(
+        &mut self,
+        terms: &mut [Box<dyn EnergyTerm>],
+        at: &CurveFields,
+        order: Order,
+        gradient: &mut IntrinsicGradient,
+    ) -> f64 {
+        self.embed(at);
+        self.dual.clear();
+        let mut energy = 0.0;
+        for term in terms.iter_mut().filter(|term| term.has_shape_energy()) {
+            energy += term.add_shape_energy(&self.shape, order, &mut self.dual);
+        }
+        let length = at.length();
+        for axis in 0..2 {
+            gradient.by_length +=
+                mean_of_product(&self.dual.position[axis], &self.shape.position[axis]) / length;
+            self.pull_back_to_tangent(axis, length);
+        }
+        gradient.by_length += self.dual.length;
+        let ([c, s], [by_x, by_y]) = (self.shape.tangents(), self.dual.tangents());
+        for (i, angle) in self.angle.iter_mut().enumerate() {
+            *angle = c[i] * by_y[i] - s[i] * by_x[i];
+        }
+        for (i, along) in self.values.iter_mut().enumerate() {
+            *along = c[i] * by_x[i] + s[i] * by_y[i];
+        }
+        if order >= Order::Hessian {
+            self.frozen.shape.copy_from(&self.shape);
+            for axis in 0..2 {
+                self.frozen.by_position[axis].copy_from_slice(&self.dual.position[axis]);
+            }
+            self.frozen.along_tangent.copy_from_slice(&self.values);
+            self.frozen.across_tangent.copy_from_slice(&self.angle);
+            self.frozen.sawtooth = self.sawtooth;
+        }
+        if let Some(sawtooth) = self.sawtooth {
+            gradient.spectra[sawtooth.mode].re += sawtooth.first() * mean(&self.values);
+        }
+        self.pull_back_to_turning(gradient);
+        energy
+    }
+
+    /// Adds the second derivative times the motion `v` of the spectral state vector.
+    pub fn add_hessian_product(
+        &mut self,
+        terms: &mut [Box<dyn EnergyTerm>],
+        v: &[f64],
+        out: &mut IntrinsicGradient,
+    ) {
+        let length = self.frozen.shape.length;
+        self.embed_motion(v);
+        self.dual.clear();
+        for term in terms.iter_mut().filter(|term| term.has_shape_energy()) {
+            term.add_shape_hessian_product(&self.frozen.shape, &self.motion, &mut self.dual);
+        }
+        out.by_length += self.dual.length;
+        for axis in 0..2 {
+            let (by_position, x) = (&self.frozen.by_position[axis], &self.frozen.shape.position[axis]);
+            out.by_length += mean_of_product(&self.dual.position[axis], x) / length;
+            // δ(γ/L) = (δγ − γ δL/L)/L.
+            let shrink = self.motion.length / length * mean_of_product(by_position, x);
+            out.by_length += (mean_of_product(by_position, &self.motion.position[axis]) - shrink) / length;
+            let stretch = self.motion.length / length;
+            for (dual, by_position) in self.dual.position[axis].iter_mut().zip(by_position) {
+                *dual += stretch * by_position;
+            }
+            self.pull_back_to_tangent(axis, length);
+        }
+        let ([c, s], [by_x, by_y]) = (self.frozen.shape.tangents(), self.dual.tangents());
+        let (along, across) = (&self.frozen.along_tangent, &self.frozen.across_tangent);
+        let mut shortening = 0.0;
+        if let Some(sawtooth) = self.frozen.sawtooth {
+            let turning = self.layout.spectra(v)[sawtooth.mode].re;
+            for (i, value) in self.values.iter_mut().enumerate() {
+                *value = self.angle[i] * across[i] + c[i] * by_x[i] + s[i] * by_y[i];
+            }
+            let product = sawtooth.second() * turning * mean(along) + sawtooth.first() * mean(&self.values);
+            out.spectra[sawtooth.mode].re += product;
+            shortening = sawtooth.first() * turning;
+        }
+        for (i, angle) in self.angle.iter_mut().enumerate() {
+            *angle = c[i] * by_y[i] - s[i] * by_x[i] + shortening * across[i] - *angle * along[i];
+        }
+        self.pull_back_to_turning(out);
+    }
+
+    /// Motion of tangents and positions under the motion `v` of the state; that of the tangent angle is in `angle`.
+    fn embed_motion(&mut self, v: &[f64]) {
+        let (nodes, length) = (self.grid.nodes() as f64, self.frozen.shape.length);
+        self.motion.length = v[self.layout.length_index()];
+        self.spectrum.copy_from_slice(&self.layout.spectra(v)[..self.grid.modes()]);
+        let turning_per_node = self.spectrum[0].re / nodes;
+        self.grid.integrate(&mut self.spectrum);
+        self.grid.synthesise(&self.spectrum, &mut self.angle);
+        for (i, angle) in self.angle.iter_mut().enumerate() {
+            *angle += turning_per_node * i as f64;
+        }
+        let sawtooth = self.frozen.sawtooth;
+        let shortening = sawtooth.map_or(0.0, |at| at.first() * self.layout.spectra(v)[at.mode].re);
+        let [c, s] = self.frozen.shape.tangents();
+        for (i, angle) in self.angle.iter().enumerate() {
+            self.motion.tangent[0][i] = shortening * c[i] - s[i] * angle;
+            self.motion.tangent[1][i] = shortening * s[i] + c[i] * angle;
+        }
+        let stretch = self.motion.length / length;
+        for axis in 0..2 {
+            self.grid.transform(&self.motion.tangent[axis], &mut self.spectrum);
+            self.grid.integrate(&mut self.spectrum);
+            self.grid.synthesise(&self.spectrum, &mut self.motion.position[axis]);
+            let positions = self.motion.position[axis].iter_mut().zip(&self.frozen.shape.position[axis]);
+            positions.for_each(|(motion, x)| *motion = length * *motion + stretch * x);
+        }
+    }
+
+    /// Derivative by tangents += (LP)ᵀ derivative by positions = −LP derivative by positions.
+    fn pull_back_to_tangent(&mut self, axis: usize, length: f64) {
+        self.grid.transform(&self.dual.position[axis], &mut self.spectrum);
+        self.grid.integrate(&mut self.spectrum);
+        self.grid.synthesise(&self.spectrum, &mut self.values);
+        for (tangent, value) in self.dual.tangent[axis].iter_mut().zip(&self.values) {
+            *tangent -= length * value;
+        }
+    }
+
+    /// p += (P + s⟨·⟩)ᵀ `angle`.
+    fn pull_back_to_turning(&mut self, out: &mut IntrinsicGradient) {
+        let nodes = self.angle.len() as f64;
+        self.grid.transform(&self.angle, &mut self.spectrum);
+        self.grid.integrate(&mut self.spectrum);
+        out.spectra.iter_mut().zip(&self.spectrum).for_each(|(p, value)| *p -= value);
+        for (i, value) in self.values.iter_mut().enumerate() {
+            *value = self.angle[i] * i as f64 / nodes;
+        }
+        out.spectra[0].re += mean(&self.values);
+    }
+}
