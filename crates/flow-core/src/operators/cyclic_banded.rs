@@ -75,6 +75,21 @@ impl<const B: usize> CyclicBanded<B> {
         }
     }
 
+    /// Sets a whole row of a cleared matrix: the entries of the columns row−`B` … row−1, row, row+1 … row+`B` (cyclic).
+    pub fn set_row(&mut self, row: usize, lower: [f64; B], diagonal: f64, upper: [f64; B]) {
+        if row >= B && row + B < self.rows - B {
+            self.lower[row] = lower;
+            self.diagonal[row] = diagonal;
+            self.upper[row] = upper;
+            return;
+        }
+        self.set(row, 0, diagonal);
+        for k in 0..B {
+            self.set(row, k as isize - B as isize, lower[k]);
+            self.set(row, k as isize + 1, upper[k]);
+        }
+    }
+
     /// Factorises the matrix that was filled in.
     ///
     /// # Errors

@@ -2,6 +2,8 @@
 
 mod cyclic_banded;
 mod derivative;
+mod helmholtz;
 
 pub use cyclic_banded::{CyclicBanded, FactorisationError};
 pub use derivative::{Derivative, DerivativeFamily};
+pub use helmholtz::{Helmholtz, HelmholtzError};
