@@ -84,12 +84,18 @@ impl PeriodicGrid {
 
     /// Nodal values of Fourier coefficients, which are used up.
     pub fn synthesise(&mut self, spectrum: &mut [Complex64], values: &mut [f64]) {
-        // The mean and the sawtooth of a real field are real.
-        spectrum[0].im = 0.0;
-        if let Some(sawtooth) = self.sawtooth_mode() {
-            spectrum[sawtooth].im = 0.0;
-        }
+        self.make_real(spectrum);
         let done = self.inverse.process_with_scratch(spectrum, values, &mut self.scratch);
         assert!(done.is_ok(), "lengths are fixed when the grid is built");
+    }
+    /// Sets the imaginary parts of mean and sawtooth to zero, as those of real fields are, in consecutive spectra. The rounding
+    /// of symbols must not leave any: no implicit operator acts on them, and no solve could reduce them.
+    pub fn make_real(&self, spectra: &mut [Complex64]) {
+        for spectrum in spectra.chunks_exact_mut(self.modes()) {
+            spectrum[0].im = 0.0;
+            if let Some(sawtooth) = self.sawtooth_mode() {
+                spectrum[sawtooth].im = 0.0;
+            }
+        }
     }
 }

@@ -2,7 +2,9 @@
 
 mod equilibrium;
 mod frames;
+mod invariants;
 mod membrane;
+mod mobilities;
 mod nodal_lines;
 mod observer;
 mod prediction;

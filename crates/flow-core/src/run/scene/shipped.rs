@@ -5,5 +5,6 @@ pub(super) const SHIPPED: &[(&str, &str)] = &[
     ("three_fold", include_str!("../../../../../scenes/three_fold.toml")),
     ("three_fold_sharp", include_str!("../../../../../scenes/three_fold_sharp.toml")),
     ("length_penalty", include_str!("../../../../../scenes/length_penalty.toml")),
+    ("incompressible", include_str!("../../../../../scenes/incompressible.toml")),
     ("circle", include_str!("../../../../../scenes/circle.toml")),
 ];
