@@ -52,3 +52,19 @@ fn steps_with_a_cut_off_do_not_allocate() {
     let changes = [("energy.adhesion.cutoff", "1.2"), ("energy.area.pressure", "0.3")];
     assert_eq!(allocations("adhesion", &changes), 0);
 }
+
+#[test]
+fn steps_of_every_mobility_do_not_allocate() {
+    for mobility in
+        ["incompressible", "area-preserving", "incompressible-area-preserving", "surface-diffusion"]
+    {
+        let changes = [("flow.normal_mobility", mobility)];
+        assert_eq!(allocations("length_penalty", &changes), 0, "{mobility}");
+    }
+    for mobility in ["exchange", "none"] {
+        let changes = [("accuracy.nodes", "256"), ("density.protein.mobility", mobility)];
+        assert_eq!(allocations("three_fold", &changes), 0, "{mobility}");
+    }
+    let changes = [("accuracy.nodes", "256"), ("density.protein.weight", "1 + 0.5*cos(2*pi*s)")];
+    assert_eq!(allocations("three_fold", &changes), 0);
+}

@@ -36,7 +36,7 @@ impl Symbol {
         for minus_laplacian in laplacian {
             let square = minus_laplacian / (length * length);
             let root = DVector::from_fn(fields, |field, _| match field {
-                0 => square,
+                0 => square * flow.normal_mobility().symbol(square).sqrt(),
                 _ => flow.density_mobilities()[field - 1].symbol(minus_laplacian, length).sqrt(),
             });
             let hessian = &means + DMatrix::from_diagonal(&(&stiffness * square));

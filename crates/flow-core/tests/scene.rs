@@ -1,6 +1,8 @@
 //! Scenes that are right: what they hold, what they are written back as, and how `--set` changes them.
 
-use flow_core::run::scene::{Derivative, Frames, Length, LengthTarget, Nodes, Scene, Shape, Spacing};
+use flow_core::run::scene::{
+    Derivative, Frames, Length, LengthTarget, Nodes, NormalMobility, Scene, Shape, Spacing,
+};
 
 const SMALL: &str = "
 curve = { shape = 'circle', radius = 2 }
@@ -127,6 +129,32 @@ fn local_energies_see_the_densities_in_order() {
     let variables = ["kappa", "kappa_sigma", "protein", "protein_sigma", "lipid", "lipid_sigma"];
     assert_eq!(scene.energy.local.as_ref().unwrap().expression.variables(), variables);
     assert_same(&parse(&scene.to_toml()), &scene);
+}
+
+#[test]
+fn every_mobility_survives_being_written_out() {
+    for normal in NormalMobility::ALL {
+        for (density, weight) in
+            [("diffusion", ""), ("diffusion", "weight = '1 + 0.5*s'"), ("exchange", ""), ("none", "")]
+        {
+            let text = format!(
+                "{SMALL}
+                [flow]
+                normal_mobility = '{}'
+                [[density]]
+                name = 'protein'
+                initial = 0.25
+                mobility = '{density}'
+                {weight}",
+                normal.name()
+            );
+            let scene = parse(&text);
+            assert_eq!(scene.flow.normal_mobility, *normal);
+            assert_eq!(scene.density[0].mobility.name(), density);
+            assert_eq!(scene.density[0].weight.is_some(), !weight.is_empty());
+            assert_same(&parse(&scene.to_toml()), &scene);
+        }
+    }
 }
 
 #[test]

@@ -250,8 +250,43 @@ const MISTAKES: &[Mistake] = &[
     ("initial = \"0.5 +", "initial = \"kappa +", &["line 8", "`density.0.initial`", "column 1"]),
     (
         "mobility = \"diffusion\"",
-        "mobility = \"exchange\"",
-        &["line 9", "\"exchange\"", "not available yet", "`diffusion`"],
+        "mobility = \"reaction\"",
+        &["line 9", "`density.0.mobility`", "\"reaction\"", "`diffusion`, `exchange`, `none`"],
+    ),
+    (
+        "mobility = \"diffusion\"",
+        "mobility = \"exchnage\"",
+        &["line 9", "\"exchnage\"", "did you mean `exchange`"],
+    ),
+    (
+        "mobility = \"diffusion\"",
+        "mobility = \"exchange\"\nweight = 2",
+        &["line 10 | weight = 2", "`density.0.weight`", "`mobility` = \"exchange\"", "drop the weight"],
+    ),
+    (
+        "mobility = \"diffusion\"",
+        "mobility = \"none\"\nweight = \"1 + s\"",
+        &["line 10", "`density.0.weight`", "`mobility` = \"none\"", "mobility = \"diffusion\""],
+    ),
+    (
+        "mobility = \"diffusion\"",
+        "mobility = \"diffusion\"\nweight = \"1 + 2*cos(2*pi*s)\"",
+        &["line 10", "`density.0.weight`", "at s = 0.33", "greater than 0", "add a constant"],
+    ),
+    (
+        "mobility = \"diffusion\"",
+        "mobility = \"diffusion\"\nweight = 0",
+        &["line 10", "`density.0.weight`", "greater than 0"],
+    ),
+    (
+        "mobility = \"diffusion\"",
+        "mobility = \"diffusion\"\nweight = \"1 + rho\"",
+        &["line 10", "`density.0.weight`", "column 5"],
+    ),
+    (
+        "mobility = \"diffusion\"",
+        "mobility = \"diffusion\"\nwieght = 1",
+        &["line 10", "unknown key", "did you mean `weight`"],
     ),
     (
         "mobility = \"diffusion\"",
@@ -302,8 +337,23 @@ const MISTAKES: &[Mistake] = &[
     ),
     (
         "[time]",
-        "[flow]\nnormal_mobility = \"incompressible\"\n[time]",
-        &["line 19", "not available yet", "`identity`"],
+        "[flow]\nnormal_mobility = \"incompresible\"\n[time]",
+        &["line 19", "\"incompresible\"", "did you mean `incompressible`", "`surface-diffusion`"],
+    ),
+    (
+        "nodes = 256\n",
+        "linear_solver = \"banded\"\n[flow]\nnormal_mobility = \"surface-diffusion\"\n",
+        &[
+            "line 23 | linear_solver",
+            "`accuracy.linear_solver` does not go with `flow.normal_mobility` = \"surface-diffusion\"",
+            "order of the flow to 8",
+            "use \"auto\"",
+        ],
+    ),
+    (
+        "nodes = 256\n",
+        "nodes = 16\n[flow]\nnormal_mobility = \"incompressible\"\n",
+        &["line 23", "`accuracy.nodes` = 16", "between 21 and 65536", "try 128"],
     ),
     (
         "[time]",

@@ -4,7 +4,7 @@ use super::curve_fields::CurveFields;
 use super::density_mobility::DensityMobility;
 use super::energy_sum::{EnergySum, IntrinsicGradient};
 use super::flow_map::FlowMap;
-use super::normal_mobility::NormalMobility;
+use super::normal_mobility::{MobilityError, NormalMobility};
 use crate::geometry::{Complex64, Layout, SpectralLayout};
 
 /// What an evaluation of the flow tells besides the rates.
@@ -22,13 +22,16 @@ pub struct GradientFlow {
     layout: Layout,
     map: FlowMap,
     energy: EnergySum,
-    normal_mobility: Box<dyn NormalMobility>,
-    density_mobilities: Vec<DensityMobility>,
+    density_mobilities: Vec<Box<dyn DensityMobility>>,
     current: CurveFields,
+    current_mobility: Box<dyn NormalMobility>,
     frozen: CurveFields,
+    frozen_mobility: Box<dyn NormalMobility>,
+    frozen_fault: Option<MobilityError>,
     gradient: IntrinsicGradient,
     force: Vec<f64>,
     velocity: Vec<f64>,
+    spectrum: Vec<Complex64>,
 }
 
 impl GradientFlow {
@@ -39,23 +42,27 @@ impl GradientFlow {
         energy: EnergySum,
         layout: Layout,
         normal_mobility: Box<dyn NormalMobility>,
-        density_mobilities: Vec<DensityMobility>,
+        density_mobilities: Vec<Box<dyn DensityMobility>>,
     ) -> Self {
         assert_eq!(density_mobilities.len(), layout.densities(), "one mobility per density");
         let (grid, derivative) = map.grid_and_derivative();
         let current = CurveFields::new(layout, grid, derivative);
-        let spectra = vec![Complex64::default(); layout.fields() * grid.modes()];
+        let modes = grid.modes();
+        let spectra = vec![Complex64::default(); layout.fields() * modes];
         Self {
             layout,
             map,
             energy,
-            normal_mobility,
             density_mobilities,
             frozen: current.clone(),
+            frozen_mobility: normal_mobility.boxed_clone(),
+            frozen_fault: None,
             current,
+            current_mobility: normal_mobility,
             gradient: IntrinsicGradient { spectra, by_length: 0.0 },
             force: vec![0.0; layout.nodes()],
             velocity: vec![0.0; layout.nodes()],
+            spectrum: vec![Complex64::default(); modes],
         }
     }
 
@@ -73,8 +80,20 @@ impl GradientFlow {
 
     /// Mobilities of the densities.
     #[must_use]
-    pub fn density_mobilities(&self) -> &[DensityMobility] {
+    pub fn density_mobilities(&self) -> &[Box<dyn DensityMobility>] {
         &self.density_mobilities
+    }
+
+    /// The normal mobility at the linearisation.
+    #[must_use]
+    pub fn normal_mobility(&self) -> &dyn NormalMobility {
+        &*self.frozen_mobility
+    }
+
+    /// Why products of the implicit operator are NaN: the normal mobility is not defined at the linearisation.
+    #[must_use]
+    pub fn linearisation_fault(&self) -> Option<MobilityError> {
+        self.frozen_fault
     }
 
     /// Fields at the state evaluated last.
@@ -146,6 +165,12 @@ impl GradientFlow {
         &self.gradient
     }
 
+    /// Force f on the normal motion at the state evaluated last.
+    #[must_use]
+    pub fn normal_force(&self) -> &[f64] {
+        &self.force
+    }
+
     /// Normal velocity V at the state evaluated last.
     #[must_use]
     pub fn normal_velocity(&self) -> &[f64] {
@@ -162,6 +187,7 @@ impl GradientFlow {
         let (grid, derivative) = self.map.grid_and_derivative();
         self.frozen.set(state, grid, derivative);
         self.energy.linearise(&self.frozen, &mut self.gradient);
+        self.frozen_fault = self.frozen_mobility.set(&self.frozen).err();
     }
 
     /// Spectral rate at the state of the linearisation; call right after [`GradientFlow::spectral_linearise`].
@@ -194,11 +220,40 @@ impl GradientFlow {
         }
     }
 
-    /// Force and normal velocity of the gradient at hand.
+    /// Adds `factor` times the rates of the densities under the normal velocity V that makes the curvature of the spectral
+    /// `state` its rate to leading order, K = −|Γ|`Δ_s` V, at the frozen state. Overwrites the gradient and the velocity.
+    pub(super) fn carry_densities(&mut self, state: &mut [f64], factor: f64) {
+        let layout = self.spectral_layout();
+        let length = self.frozen.length();
+        let modes = self.spectrum.len();
+        let (turning, densities) = layout.spectra_mut(state).split_at_mut(modes);
+        let (grid, derivative) = self.map.grid_and_derivative();
+        let symbols = derivative.minus_laplacian().iter();
+        for ((v, turning), symbol) in self.spectrum.iter_mut().zip(turning).zip(symbols) {
+            *v = if *symbol > 0.0 { *turning * (length / symbol) } else { Complex64::default() };
+        }
+        grid.synthesise(&self.spectrum, &mut self.velocity);
+        self.map.rates(&self.frozen, &self.velocity, &mut self.gradient.spectra);
+        self.map.grid_and_derivative().0.make_real(&mut self.gradient.spectra);
+        for (density, rate) in densities.iter_mut().zip(&self.gradient.spectra[modes..]) {
+            *density += rate * factor;
+        }
+    }
+
+    /// Force and normal velocity of the gradient at hand; the velocity is NaN where the mobility is not defined.
     fn descend(&mut self, frozen: bool) {
-        let at = if frozen { &self.frozen } else { &self.current };
+        let (at, mobility, fault) = if frozen {
+            (&self.frozen, &mut self.frozen_mobility, self.frozen_fault)
+        } else {
+            let fault = self.current_mobility.set(&self.current).err();
+            (&self.current, &mut self.current_mobility, fault)
+        };
         self.map.force(at, &self.gradient.spectra, self.gradient.by_length, &mut self.force);
-        self.normal_mobility.apply(at, &self.force, &mut self.velocity);
+        if fault.is_some() {
+            self.velocity.fill(f64::NAN);
+        } else {
+            mobility.apply(at, &self.force, &mut self.velocity);
+        }
     }
 
     fn dissipation(&mut self) -> f64 {
@@ -206,14 +261,14 @@ impl GradientFlow {
         let nodes = self.layout.nodes() as f64;
         let normal: f64 = self.force.iter().zip(&self.velocity).map(|(f, v)| f * v).sum();
         let mut sum = length * normal / nodes;
-        let (grid, derivative) = self.map.grid_and_derivative();
-        let modes = grid.modes();
-        for (density, mobility) in self.density_mobilities.iter().enumerate() {
+        let modes = self.spectrum.len();
+        for (density, mobility) in self.density_mobilities.iter_mut().enumerate() {
             let mu = &self.gradient.spectra[(density + 1) * modes..(density + 2) * modes];
-            let mut square = 0.0;
-            for (mode, (mu, symbol)) in mu.iter().zip(derivative.minus_laplacian()).enumerate() {
-                square += grid.multiplicity(mode) * mobility.symbol(*symbol, length) * mu.norm_sqr();
-            }
+            mobility.apply(length, mu, &mut self.spectrum);
+            let products = mu.iter().zip(&self.spectrum).enumerate();
+            let square: f64 = products
+                .map(|(mode, (a, b))| self.map.multiplicity(mode) * (a.re * b.re + a.im * b.im))
+                .sum();
             sum += length * square;
         }
         sum
@@ -226,23 +281,16 @@ impl GradientFlow {
         let layout = SpectralLayout::new(self.layout);
         let rates = layout.spectra_mut(out);
         let length_rate = self.map.rates(at, &self.velocity, rates);
-        let (grid, derivative) = self.map.grid_and_derivative();
+        let (grid, _) = self.map.grid_and_derivative();
         let modes = grid.modes();
-        for (density, mobility) in self.density_mobilities.iter().enumerate() {
+        for (density, mobility) in self.density_mobilities.iter_mut().enumerate() {
             let range = (density + 1) * modes..(density + 2) * modes;
-            let (rate, mu) = (&mut rates[range.clone()], &self.gradient.spectra[range]);
-            for ((rate, mu), symbol) in rate.iter_mut().zip(mu).zip(derivative.minus_laplacian()) {
-                *rate -= mu * (length * mobility.symbol(*symbol, length));
+            mobility.apply(length, &self.gradient.spectra[range.clone()], &mut self.spectrum);
+            for (rate, product) in rates[range].iter_mut().zip(&self.spectrum) {
+                *rate -= product * length;
             }
         }
-        // Of the mean and of the sawtooth a real field has the real part only. The rounding of the symbols must not
-        // leave more: 𝓚 Hess does not act on the rest, which no solve could then reduce.
-        for spectrum in rates.chunks_exact_mut(modes) {
-            spectrum[0].im = 0.0;
-            if let Some(sawtooth) = grid.sawtooth_mode() {
-                spectrum[sawtooth].im = 0.0;
-            }
-        }
+        grid.make_real(rates);
         out[layout.length_index()] = length_rate;
     }
 }

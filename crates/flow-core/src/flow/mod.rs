@@ -3,6 +3,7 @@
 mod curve_fields;
 mod density_mobility;
 mod energy_sum;
+mod excess_density;
 mod flow_map;
 mod gradient_flow;
 mod nodal;
@@ -12,9 +13,13 @@ mod shape_energy;
 mod slope_energy;
 
 pub use curve_fields::CurveFields;
-pub use density_mobility::DensityMobility;
+pub use density_mobility::{Carried, DensityMobility, Diffusion, Exchange, WeightedDiffusion};
 pub use energy_sum::{EnergySum, IntrinsicGradient};
+pub use excess_density::ExcessDensity;
 pub use flow_map::FlowMap;
 pub use gradient_flow::{GradientFlow, Rate};
-pub use normal_mobility::{Identity, NormalMobility};
+pub use normal_mobility::{
+    AreaPreserving, Identity, Incompressible, IncompressibleAreaPreserving, Kept, MobilityError,
+    NormalMobility, SurfaceDiffusion,
+};
 pub use preconditioner::{LinearSolver, Preconditioner};

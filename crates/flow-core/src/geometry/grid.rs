@@ -74,4 +74,15 @@ impl PeriodicGrid {
             spectrum[sawtooth] = Complex64::default();
         }
     }
+
+    /// Sets the imaginary parts of mean and sawtooth to zero, as those of real fields are, in consecutive spectra. The rounding
+    /// of symbols must not leave any: no implicit operator acts on them, and no solve could reduce them.
+    pub fn make_real(&self, spectra: &mut [Complex64]) {
+        for spectrum in spectra.chunks_exact_mut(self.modes()) {
+            spectrum[0].im = 0.0;
+            if let Some(sawtooth) = self.sawtooth_mode() {
+                spectrum[sawtooth].im = 0.0;
+            }
+        }
+    }
 }

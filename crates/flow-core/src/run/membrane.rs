@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::invariants::Invariants;
 use crate::flow::{GradientFlow, LinearSolver, Preconditioner, Rate};
 use crate::geometry::{Closure, Crossings, Embedding, Layout};
 use crate::integrator::{Finish, INTEGRALS, Problem};
@@ -28,8 +29,7 @@ pub struct Membrane {
     turning_number: i32,
     tangential: Vec<f64>,
     closure_defect: f64,
-    /// Mean coefficients of the conserved densities, from the first state finished on.
-    masses: Vec<f64>,
+    invariants: Invariants,
     /// Time, angle and rate of the angle at the last accepted state; rate at the candidate.
     placed: [f64; 3],
     candidate_angle_rate: f64,
@@ -44,13 +44,13 @@ impl Membrane {
             preconditioner: Preconditioner::new(solver, &mut flow),
             automatic: solver == LinearSolver::Auto && Preconditioner::banded_exists(&flow),
             mean_iterations: 0.0,
+            invariants: Invariants::new(&mut flow),
             flow,
             closure: Closure::new(nodes),
             crossings: Crossings::new(nodes),
             turning_number,
             tangential: vec![0.0; nodes],
             closure_defect: 0.0,
-            masses: Vec::new(),
             placed: [0.0, angle, 0.0],
             candidate_angle_rate: 0.0,
         }
@@ -97,21 +97,6 @@ impl Membrane {
     #[must_use]
     pub fn closure_defect(&self) -> f64 {
         self.closure_defect
-    }
-
-    /// Masses are linear invariants, kept by the integrator up to the rounding of each step; this takes the
-    /// rounding out, so that it does not add up.
-    fn keep_masses(&mut self, y: &mut [f64]) {
-        let layout = self.flow.spectral_layout();
-        let densities = self.flow.density_mobilities().len();
-        let means = (1..=densities).map(|field| layout.field(field).start);
-        if self.masses.is_empty() {
-            self.masses.extend(means.map(|mean| y[mean]));
-            return;
-        }
-        for (mean, mass) in means.zip(&self.masses) {
-            y[mean] = *mass;
-        }
     }
 
     /// Rates of the integrals at the state evaluated last: dissipation, ⟨κW⟩, ⟨Vn + Wτ⟩.
@@ -167,7 +152,8 @@ impl Problem for Membrane {
     }
 
     fn factorise(&mut self, gamma: f64) -> bool {
-        self.preconditioner.factorise(&mut self.flow, gamma).is_ok()
+        self.flow.linearisation_fault().is_none()
+            && self.preconditioner.factorise(&mut self.flow, gamma).is_ok()
     }
 
     fn precondition(&mut self, r: &mut [f64]) {
@@ -200,11 +186,10 @@ impl Problem for Membrane {
         if !usable {
             return Finish::NotFinite;
         }
-        self.keep_masses(y);
         // The angle at the candidate to second order; it turns the frame of the mean position only.
         let angle = angle + (time - start) * angle_rate;
-        let turning = &mut layout.spectra_mut(y)[..layout.modes()];
-        match self.closure.project(turning, length, self.turning_number, angle) {
+        let Self { invariants, flow, closure, .. } = self;
+        match invariants.restore(y, flow, closure, self.turning_number, angle) {
             Ok(gap) => self.closure_defect = gap,
             Err(_) => return Finish::NotFinite,
         }

@@ -3,7 +3,9 @@
 mod energy_terms;
 mod equilibrium;
 mod frames;
+mod invariants;
 mod membrane;
+mod mobilities;
 mod nodal_lines;
 mod observer;
 mod prediction;

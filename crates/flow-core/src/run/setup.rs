@@ -2,13 +2,12 @@
 
 use super::energy_terms::{Initial, energy_terms};
 use super::membrane::Membrane;
+use super::mobilities::{density_mobilities, normal_mobility};
 use super::resolution;
 use super::scene::{self, Scene};
 use super::setup_error::SetupError;
 use crate::expression::Program;
-use crate::flow::{
-    DensityMobility, EnergySum, FlowMap, GradientFlow, Identity, LinearSolver, NormalMobility,
-};
+use crate::flow::{EnergySum, FlowMap, GradientFlow, LinearSolver};
 use crate::geometry::shapes::{Resampled, Shape};
 use crate::geometry::{Closure, Embedding, Layout, PeriodicGrid, Placement, SpectralLayout, enclosed_area};
 use crate::operators::{Derivative, DerivativeFamily};
@@ -50,9 +49,9 @@ impl Setup {
         let terms = energy_terms(scene, initial, nodes)?;
         let energy = EnergySum::new(terms, layout, &grid, &derivative);
         let map = FlowMap::new(layout, &grid, &derivative);
-        let mobilities = scene.density.iter().map(|density| density_mobility(density.mobility)).collect();
-        let flow =
-            GradientFlow::new(map, energy, layout, normal_mobility(scene.flow.normal_mobility), mobilities);
+        let normal = normal_mobility(scene.flow.normal_mobility, &grid, &derivative);
+        let mobilities = density_mobilities(scene, &grid, &derivative)?;
+        let flow = GradientFlow::new(map, energy, layout, normal, mobilities);
         let solver = linear_solver(scene.accuracy.linear_solver);
         let membrane = Membrane::new(flow, solver, curve.turning_number, curve.angle);
         let placement = Placement { angle: curve.angle, centre: curve.centre };
@@ -139,18 +138,6 @@ fn family(derivative: scene::Derivative) -> DerivativeFamily {
         scene::Derivative::Central4 => DerivativeFamily::Central4,
         scene::Derivative::Central6 => DerivativeFamily::Central6,
         scene::Derivative::Central8 => DerivativeFamily::Central8,
-    }
-}
-
-fn normal_mobility(mobility: scene::NormalMobility) -> Box<dyn NormalMobility> {
-    match mobility {
-        scene::NormalMobility::Identity => Box::new(Identity),
-    }
-}
-
-fn density_mobility(mobility: scene::DensityMobility) -> DensityMobility {
-    match mobility {
-        scene::DensityMobility::Diffusion => DensityMobility::Diffusion,
     }
 }
 

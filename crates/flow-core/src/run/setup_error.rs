@@ -35,6 +35,12 @@ pub enum SetupError {
          in [0, 1); check the expression for divisions by zero, logarithms and roots"
     )]
     DensityNotFinite { density: String, node: usize, parameter: f64, value: f64 },
+    /// The weight of a diffusion is not a positive number.
+    #[error(
+        "`density.{density}.weight` is {value} at s = {parameter:.6}: it must be positive and finite for all s in \
+         [0, 1); add a constant, for example 0.1"
+    )]
+    WeightNotPositive { density: String, parameter: f64, value: f64 },
     /// A derivative of an expression is too large.
     #[error("`{key}`: {fault}")]
     Expression { key: &'static str, fault: ExpressionError },

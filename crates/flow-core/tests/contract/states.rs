@@ -83,11 +83,20 @@ impl Blob {
         let mut grid = PeriodicGrid::new(nodes);
         let mut spectrum = vec![Complex64::default(); grid.modes()];
         grid.transform(&y[layout.field(0)], &mut spectrum);
-        let gap = Closure::new(nodes).project(&mut spectrum, curve.length, 1, curve.angle);
+        let gap = Closure::new(nodes).project(&mut spectrum, curve.length, curve.turning_number, curve.angle);
         gap.expect("a curve that closes");
         grid.synthesise(&spectrum, &mut y[layout.field(0)]);
         State { layout, y }
     }
+}
+
+/// A figure eight of turning number 0, bent by the waves of `blob`.
+pub fn figure_eight(blob: &Blob, nodes: usize, densities: usize) -> State {
+    let [(a, p), (b, q), _] = blob.radius;
+    let parse = |text: String| Expression::parse(&text, &["phi"]).expect("a formula");
+    let x = parse(format!("sin(phi) + ({a:.9})*cos(2*phi + {p:.9})"));
+    let y = parse(format!("sin(phi)*cos(phi) + ({b:.9})*cos(phi + {q:.9})"));
+    blob.state_on(&Shape::Parametric { x, y }, nodes, densities)
 }
 
 /// The initial state of `scenes/three_fold.toml`.

@@ -5,9 +5,11 @@ use flow_core::energies::{
     Regularization,
 };
 use flow_core::expression::Expression;
-use flow_core::flow::{DensityMobility, EnergySum, FlowMap, GradientFlow, Identity};
+use flow_core::flow::{EnergySum, FlowMap, GradientFlow};
 use flow_core::geometry::{Layout, PeriodicGrid};
 use flow_core::operators::{Derivative, DerivativeFamily};
+
+use crate::mobilities::{Density, Normal};
 
 /// A term, or all of them together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -157,14 +159,26 @@ fn local(text: &str, densities: &[&str], nodes: usize) -> Local {
     Local::new(&expression, names.len(), nodes).expect("short derivatives")
 }
 
-/// The flow of `terms` with every density diffusing.
-pub fn flow_of(terms: Vec<Box<dyn EnergyTerm>>, family: DerivativeFamily, layout: Layout) -> GradientFlow {
+/// The flow of `terms` under the mobilities.
+pub fn flow_under(
+    terms: Vec<Box<dyn EnergyTerm>>,
+    family: DerivativeFamily,
+    layout: Layout,
+    normal: Normal,
+    densities: &[Density],
+) -> GradientFlow {
     let grid = PeriodicGrid::new(layout.nodes());
     let derivative = Derivative::new(family, &grid);
     let energy = EnergySum::new(terms, layout, &grid, &derivative);
     let map = FlowMap::new(layout, &grid, &derivative);
-    let mobilities = vec![DensityMobility::Diffusion; layout.densities()];
-    GradientFlow::new(map, energy, layout, Box::new(Identity), mobilities)
+    let mobilities = densities.iter().map(|density| density.build(&grid, &derivative)).collect();
+    GradientFlow::new(map, energy, layout, normal.build(&grid, &derivative), mobilities)
+}
+
+/// The flow of `terms` with every density diffusing.
+pub fn flow_of(terms: Vec<Box<dyn EnergyTerm>>, family: DerivativeFamily, layout: Layout) -> GradientFlow {
+    let densities = vec![Density::Diffusion; layout.densities()];
+    flow_under(terms, family, layout, Normal::Identity, &densities)
 }
 
 /// The flow of `term`.

@@ -9,6 +9,8 @@ use std::f64::consts::TAU;
 use std::fmt::Debug;
 
 use super::super::gradient_flow::GradientFlow;
+use super::super::normal_mobility::NormalMobility;
+use super::carries;
 use super::fourier::mobility_symbol;
 use crate::geometry::vectors::mean;
 use crate::geometry::{Complex64, Layout, PeriodicGrid};
@@ -31,8 +33,12 @@ pub trait Banded: Debug + Send {
     fn apply(&mut self, spectra: &mut [Complex64]);
 }
 
-/// Builds the solver for the number of fields, up to four; none beyond.
-pub fn build(layout: Layout) -> Option<Box<dyn Banded>> {
+/// Builds the solver for the number of fields, up to four; none beyond, and none if the normal mobility is a
+/// differential operator: it widens the band.
+pub fn build(layout: Layout, mobility: &dyn NormalMobility) -> Option<Box<dyn Banded>> {
+    if mobility.order() > 0 {
+        return None;
+    }
     match layout.fields() {
         1 => Some(Box::new(LocalPart::<1, 3>::new(layout.nodes()))),
         2 => Some(Box::new(LocalPart::<2, 7>::new(layout.nodes()))),
@@ -49,6 +55,8 @@ type Row<const F: usize> = [f64; F];
 struct LocalPart<const F: usize, const B: usize> {
     fine_modes: usize,
     grid: PeriodicGrid,
+    /// Whether 𝓚 makes no mean, by field.
+    keeps_mean: [bool; F],
     matrix: CyclicBanded<B>,
     /// Symbol of A by mode.
     mass: Vec<f64>,
@@ -73,6 +81,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         let fine_modes = nodes / 2 + 1;
         Self {
             fine_modes,
+            keeps_mean: [true; F],
             matrix: CyclicBanded::new(coarse * F),
             mass: (0..grid.modes())
                 .map(|mode| 1.0 - (0.5 * TAU * mode as f64 / coarse as f64).sin().powi(2) / 3.0)
@@ -118,17 +127,22 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         }
     }
 
-    /// Symbol of the diagonal block of `field` with mean coefficients, for a symbol of −∂_s².
-    fn diagonal_symbol(
+    /// Symbols of the diagonal block of `field` with mean coefficients: by second differences with the normal mobility
+    /// left out, as in the band, and the right one.
+    fn diagonal_symbols(
         flow: &GradientFlow,
         field: usize,
         mean: f64,
         gamma: f64,
-        minus_laplacian: f64,
-    ) -> f64 {
+        [difference, exact]: [f64; 2],
+    ) -> [f64; 2] {
         let length = flow.frozen().length();
-        let stiffness = flow.energy_terms().stiffness()[field] * minus_laplacian / (length * length);
-        1.0 + gamma * mobility_symbol(flow, field, minus_laplacian, length) * (stiffness + mean)
+        let square = difference / (length * length);
+        let band =
+            if field == 0 { square * square } else { mobility_symbol(flow, field, difference, length) };
+        let stiffness = flow.energy_terms().stiffness()[field];
+        let symbol = |mobility: f64, square: f64| 1.0 + gamma * mobility * (stiffness * square + mean);
+        [symbol(band, square), symbol(mobility_symbol(flow, field, exact, length), exact / (length * length))]
     }
 
     fn set_correction(&mut self, flow: &mut GradientFlow, gamma: f64) {
@@ -140,11 +154,10 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
                 let exact = flow.grid_and_derivative().1.minus_laplacian()[mode];
                 let mass = self.mass[mode];
                 let difference = 12.0 * (coarse as f64).powi(2) * (1.0 - mass) / mass;
-                let ratio = Self::diagonal_symbol(flow, field, mean, gamma, difference)
-                    / Self::diagonal_symbol(flow, field, mean, gamma, exact);
-                let power = if field == 0 { mass * mass } else { mass };
-                self.before[field * modes + mode] = power * ratio.sqrt();
-                self.after[field * modes + mode] = mass * ratio.sqrt();
+                let [band, right] = Self::diagonal_symbols(flow, field, mean, gamma, [difference, exact]);
+                let (power, root) = (if field == 0 { mass * mass } else { mass }, (band / right).sqrt());
+                self.before[field * modes + mode] = power * root;
+                self.after[field * modes + mode] = mass * root;
             }
         }
     }
@@ -189,9 +202,10 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         }
     }
 
-    /// Fills I − γJ for φ = Aw: A²·(κ̇ = −ΔV − κ²V) and A·(ρ̇ = −κρV + 𝓖-part Δp).
-    fn fill(&mut self, gamma: f64, scale: f64) {
-        let nodes = self.grid.nodes();
+    /// Fills I − γJ for φ = Aw: A²·(κ̇ = −ΔV − κ²V) and A·(ρ̇ = −κρV − 𝓖p).
+    fn fill(&mut self, flow: &GradientFlow, gamma: f64, scale: f64) {
+        let (densities, length) = (flow.density_mobilities(), flow.frozen().length());
+        let (carries, nodes) = (carries(flow), self.grid.nodes());
         self.matrix.clear();
         let (square, cube) = (convolve::<3, 5>(&MASS), convolve::<5, 7>(&convolve::<3, 5>(&MASS)));
         for i in 0..nodes {
@@ -214,17 +228,22 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
                     for k in 0..5 {
                         row[1 + k][f] = square[k];
                     }
-                    let damping = gamma * self.coefficients[i] * self.coefficients[f * nodes + i];
+                    let carried = if carries { 0.0 } else { self.coefficients[f * nodes + i] };
+                    let damping = gamma * self.coefficients[i] * carried;
                     for k in 0..5 {
                         for g in 0..F {
                             row[1 + k][g] += damping * self.velocity_rows[i][k][g];
                         }
                     }
+                    let density = &densities[f - 1];
+                    let points = density.three_points(i, nodes, length);
+                    let weights =
+                        if density.order() == 0 { MASS.map(|mass| mass * points[1]) } else { points };
                     for (shift, node) in neighbours(i, nodes).into_iter().enumerate() {
-                        let factor = gamma * scale * DIFFERENCE[shift];
+                        let factor = gamma * weights[shift];
                         for k in 0..3 {
                             for g in 0..F {
-                                row[1 + shift + k][g] -= factor * self.gradient_rows[node][f][k][g];
+                                row[1 + shift + k][g] += factor * self.gradient_rows[node][f][k][g];
                             }
                         }
                     }
@@ -241,11 +260,14 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
     }
 
     fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> Result<(), FactorisationError> {
+        for (keeps, density) in self.keeps_mean.iter_mut().skip(1).zip(flow.density_mobilities()) {
+            *keeps = density.conserves_mass();
+        }
         self.restrict(flow);
         self.set_correction(flow, gamma);
         let scale = (self.grid.nodes() as f64 / flow.frozen().length()).powi(2);
         self.set_stencils(flow.energy_terms().stiffness(), scale);
-        self.fill(gamma, scale);
+        self.fill(flow, gamma, scale);
         self.matrix.factorise()
     }
 
@@ -272,8 +294,9 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
             self.grid.transform(&self.values, &mut self.spectrum);
             let factors = &self.after[field * low..(field + 1) * low];
             let spectrum = &mut spectra[field * self.fine_modes..(field + 1) * self.fine_modes];
-            // J makes no mean, but its local part does: the mean stays as it was.
-            for ((target, value), factor) in spectrum.iter_mut().zip(&self.spectrum).zip(factors).skip(1) {
+            // Where J makes no mean, its local part does: the mean stays as it was.
+            let kept = usize::from(self.keeps_mean[field]);
+            for ((target, value), factor) in spectrum.iter_mut().zip(&self.spectrum).zip(factors).skip(kept) {
                 *target = value * factor;
             }
         }

@@ -17,10 +17,13 @@ pub struct FourierSymbol {
     scratch: Vec<Complex64>,
 }
 
-/// Symbols of 𝓚 by field: (−`Δ_s)²` on the curvature, 𝓖 on the densities.
+/// Symbols of 𝓚 by field: `Δ_s𝓑Δ_s` on the curvature, 𝓖 on the densities.
 pub fn mobility_symbol(flow: &GradientFlow, field: usize, minus_laplacian: f64, length: f64) -> f64 {
     match field {
-        0 => (minus_laplacian / (length * length)).powi(2),
+        0 => {
+            let square = minus_laplacian / (length * length);
+            square * square * flow.normal_mobility().symbol(square)
+        }
         _ => flow.density_mobilities()[field - 1].symbol(minus_laplacian, length),
     }
 }

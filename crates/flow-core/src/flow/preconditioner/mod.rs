@@ -43,6 +43,8 @@ enum FieldInverse {
 #[derive(Debug)]
 pub struct Preconditioner {
     inverse: FieldInverse,
+    /// Whether the densities are taken relative to what the curve carries along (see [`carries`]).
+    carries: bool,
     coupling: Option<LengthCoupling>,
     weights: ResidualWeights,
 }
@@ -58,25 +60,27 @@ impl Preconditioner {
             LinearSolver::Auto | LinearSolver::Fourier => {
                 FieldInverse::Fourier(FourierSymbol::new(layout, modes))
             }
-            LinearSolver::Banded => match banded::build(layout) {
+            LinearSolver::Banded => match banded::build(layout, flow.normal_mobility()) {
                 Some(banded) => FieldInverse::Banded(banded, FourierSymbol::new(layout, modes)),
                 None => FieldInverse::Fourier(FourierSymbol::new(layout, modes)),
             },
             LinearSolver::Dense => FieldInverse::Dense(Dense::new(flow.spectral_layout())),
         };
         let whole = matches!(inverse, FieldInverse::Dense(_));
+        // Where the length is kept, 𝓚e = 0: there is nothing to couple in.
+        let coupled = length_curvature != 0.0 && !flow.normal_mobility().keeps().length;
         Self {
             weights: ResidualWeights::new(flow.spectral_layout()),
             inverse,
-            coupling: (length_curvature != 0.0 && !whole)
-                .then(|| LengthCoupling::new(flow.spectral_layout())),
+            carries: carries(flow) && !whole,
+            coupling: (coupled && !whole).then(|| LengthCoupling::new(flow.spectral_layout())),
         }
     }
 
     /// Whether a banded factorisation exists for states of this flow.
     #[must_use]
     pub fn banded_exists(flow: &GradientFlow) -> bool {
-        banded::build(flow.layout()).is_some()
+        banded::build(flow.layout(), flow.normal_mobility()).is_some()
     }
 
     /// Factorises I − γJ at the frozen state of `flow`.
@@ -116,6 +120,9 @@ impl Preconditioner {
 
     fn apply_to_fields(&mut self, flow: &mut GradientFlow, r: &mut [f64]) {
         let layout = flow.spectral_layout();
+        if self.carries {
+            flow.carry_densities(r, -1.0);
+        }
         match &mut self.inverse {
             FieldInverse::Fourier(symbol) => symbol.apply(layout.spectra_mut(r), 0),
             FieldInverse::Banded(banded, symbol) => {
@@ -126,5 +133,18 @@ impl Preconditioner {
             }
             FieldInverse::Dense(dense) => dense.apply(r),
         }
+        if self.carries {
+            flow.carry_densities(r, 1.0);
+        }
     }
+}
+
+/// Whether what the motion of the curve does to the densities is of the order of their own mobility.
+///
+/// To leading order A = T(A₀, 0) with the rate of the curvature A₀ = −|Γ|`Δ_s` and T = (1, 0; A₁A₀⁻¹, 1), so that 𝓚 is
+/// T diag(`A₀𝓑A₀ᵀ`, 𝓖)Tᵀ and T⁻¹(I − γJ)T has no coupling through the motion. Where 𝓖 is of order 2 and 𝓑 of order 0 the
+/// coupling is small without that. See `THEORY.md`, eq. (O6).
+fn carries(flow: &GradientFlow) -> bool {
+    let least = 2 + flow.normal_mobility().order();
+    flow.density_mobilities().iter().any(|density| density.order() < least)
 }

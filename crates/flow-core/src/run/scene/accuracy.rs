@@ -4,8 +4,10 @@ use serde::{Serialize, Serializer};
 
 use super::choice::names;
 use super::entry::Entry;
-use super::error::Bound;
+use super::error::{Bound, Fault};
+use super::flow::NormalMobility;
 use super::section::Section;
+use crate::operators::Helmholtz;
 
 const MIN_NODES: f64 = 8.0;
 const MAX_NODES: f64 = 65_536.0;
@@ -75,7 +77,8 @@ impl Default for Accuracy {
 }
 
 impl Accuracy {
-    pub(super) fn read(mut section: Section<'_>) -> Self {
+    /// Reads `[accuracy]` of a scene with the normal mobility `mobility`.
+    pub(super) fn read(mut section: Section<'_>, mobility: NormalMobility) -> Self {
         let default = Self::default();
         let tolerance = section.get("tolerance");
         let tolerance =
@@ -83,6 +86,7 @@ impl Accuracy {
         let nodes = section.get("nodes").and_then(|entry| read_nodes(&entry));
         let derivative = section.get("derivative").and_then(|entry| entry.choice(&[]));
         let linear_solver = section.get("linear_solver").and_then(|entry| entry.choice(&[]));
+        check_mobility(&section, mobility, nodes, linear_solver);
         section.finish();
         Self {
             tolerance: tolerance.unwrap_or(default.tolerance),
@@ -90,6 +94,30 @@ impl Accuracy {
             derivative: derivative.unwrap_or(default.derivative),
             linear_solver: linear_solver.unwrap_or(default.linear_solver),
         }
+    }
+}
+
+/// What the methods cannot do with some mobilities.
+fn check_mobility(
+    section: &Section<'_>,
+    mobility: NormalMobility,
+    nodes: Option<Nodes>,
+    solver: Option<LinearSolver>,
+) {
+    let (choice, value) = ("flow.normal_mobility", mobility.name());
+    if mobility == NormalMobility::SurfaceDiffusion && solver == Some(LinearSolver::Banded) {
+        let remedy = "surface diffusion raises the order of the flow to 8, beyond the band; use \"auto\" or \"fourier\"";
+        section.fault("linear_solver", Fault::OtherChoice { choice, value, remedy });
+    }
+    let band =
+        matches!(mobility, NormalMobility::Incompressible | NormalMobility::IncompressibleAreaPreserving);
+    if let Some(Nodes::Count(count)) = nodes.filter(|_| band)
+        && count < Helmholtz::FEWEST_NODES
+    {
+        let bound = Bound::Between(Helmholtz::FEWEST_NODES as f64, MAX_NODES);
+        let remedy = "an incompressible curve needs more; try 128, or \"auto\"";
+        let (value, written) = (count as f64, count.to_string());
+        section.fault("nodes", Fault::OutOfRange { value, written, bound, remedy });
     }
 }
 

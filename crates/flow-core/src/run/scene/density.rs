@@ -4,9 +4,10 @@ use serde::Serialize;
 
 use super::choice::names;
 use super::entry::Entry;
-use super::error::Fault;
+use super::error::{Bound, Fault};
 use super::formula::Formula;
 use super::section::Section;
+use crate::expression::Program;
 
 /// Names that mean something in expressions; a density called so could not be written there.
 const RESERVED: [&str; 20] = [
@@ -42,13 +43,20 @@ pub struct Density {
     pub initial: Formula,
     /// How it moves along the curve.
     pub mobility: DensityMobility,
+    /// Weight w > 0 of the diffusion, an expression of `s`; 1 unless given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weight: Option<Formula>,
 }
 
 names! {
     /// The density mobility 𝓖.
     pub enum DensityMobility {
-        /// `𝓖 = −Δ_s`: the mass is conserved.
+        /// `𝓖 = −Δ_s`, or −∇_s(w∇_s·) with a weight w(s): the mass is conserved.
         Diffusion = "diffusion",
+        /// 𝓖 = Id, the Allen–Cahn flow: the mass is not conserved.
+        Exchange = "exchange",
+        /// 𝓖 = 0: every piece of the curve keeps its mass.
+        Carried = "none",
     }
 }
 
@@ -72,11 +80,42 @@ impl Density {
         let initial = section.required("initial", "initial = \"0.5 + 0.1*cos(2*pi*s)\"");
         let initial = initial.and_then(|entry| entry.formula(&["s"]));
         let mobility = section.required("mobility", "mobility = \"diffusion\"");
-        let mobility = mobility.and_then(|entry| entry.choice(&["exchange", "none"]));
-        section.planned("weight");
+        let mobility: Option<DensityMobility> = mobility.and_then(|entry| entry.choice(&[]));
+        let weight = section.get("weight").map(|entry| positive_weight(&entry));
+        if let Some(other) = mobility.filter(|m| weight.is_some() && *m != DensityMobility::Diffusion) {
+            let remedy = "drop the weight, or use mobility = \"diffusion\"";
+            section.fault("weight", Fault::OtherChoice { choice: "mobility", value: other.name(), remedy });
+        }
         section.finish();
-        Some(Self { name: name?, initial: initial?, mobility: mobility? })
+        let weight = match weight {
+            Some(weight) => Some(weight?),
+            None => None,
+        };
+        Some(Self { name: name?, initial: initial?, mobility: mobility?, weight })
     }
+}
+
+/// Parameters at which a weight is looked at; the flux points are checked once they are known.
+const SAMPLES: usize = 512;
+
+fn positive_weight(entry: &Entry<'_>) -> Option<Formula> {
+    let weight = entry.formula(&["s"])?;
+    let remedy = "add a constant, for example 0.1";
+    let points: Vec<f64> = (0..SAMPLES).map(|i| i as f64 / SAMPLES as f64).collect();
+    let program = Program::compile(&[weight.expression()]);
+    let (mut values, mut scratch) = (vec![0.0; SAMPLES], vec![0.0; program.scratch_len()]);
+    program.evaluate(&[&points], &mut [&mut values], &mut scratch);
+    let wrong = values.iter().position(|value| !Bound::Positive.contains(*value));
+    let Some(at) = wrong else { return Some(weight) };
+    entry.fault(Fault::ValueOutOfRange {
+        text: weight.text(),
+        variable: "s",
+        at: points[at],
+        value: values[at],
+        bound: Bound::Positive,
+        remedy,
+    });
+    None
 }
 
 fn checked_name(entry: &Entry<'_>, names: &[Option<String>]) -> Option<String> {

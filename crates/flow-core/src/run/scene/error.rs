@@ -100,6 +100,17 @@ pub enum Fault {
     Expression { text: String, source: ExpressionError },
     /// Keys that exclude each other.
     Conflict { with: &'static str, remedy: &'static str },
+    /// A key that has no meaning with the choice made at another one.
+    OtherChoice { choice: &'static str, value: &'static str, remedy: &'static str },
+    /// A formula with a value outside its range.
+    ValueOutOfRange {
+        text: String,
+        variable: &'static str,
+        at: f64,
+        value: f64,
+        bound: Bound,
+        remedy: &'static str,
+    },
     /// A density that the scene does not have.
     UnknownDensity { value: String, suggestion: Option<String>, densities: Vec<String> },
     /// A term that needs a density in a scene without any.

@@ -22,6 +22,14 @@ names! {
     pub enum NormalMobility {
         /// 𝓑 = Id: the L² gradient flow. The default.
         Identity = "identity",
+        /// 𝓑 = 𝓘 = Id − κH⁻¹κ with H = `−Δ_s` + κ²: every piece of the curve keeps its length.
+        Incompressible = "incompressible",
+        /// 𝓑 = Id − ⟨·⟩, the mean over the curve: the enclosed area is kept.
+        AreaPreserving = "area-preserving",
+        /// 𝓘 less its part that changes the area: both are kept.
+        IncompressibleAreaPreserving = "incompressible-area-preserving",
+        /// 𝓑 = `−Δ_s`: the H⁻¹ gradient flow; the enclosed area is kept.
+        SurfaceDiffusion = "surface-diffusion",
     }
 }
 
@@ -46,10 +54,7 @@ impl Default for Flow {
 impl Flow {
     pub(super) fn read(mut section: Section<'_>) -> Self {
         let default = Self::default();
-        let planned_mobilities =
-            ["incompressible", "area-preserving", "incompressible-area-preserving", "surface-diffusion"];
-        let normal_mobility =
-            section.get("normal_mobility").and_then(|entry| entry.choice(&planned_mobilities));
+        let normal_mobility = section.get("normal_mobility").and_then(|entry| entry.choice(&[]));
         let gauge = section.get("gauge").and_then(|entry| entry.choice(&["graded", "co-moving"]));
         let stop_on_contact = section.get("stop_on_contact").and_then(|entry| entry.boolean());
         section.finish();

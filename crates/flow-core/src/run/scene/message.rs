@@ -132,6 +132,15 @@ fn sentence(key: &str, fault: &Fault) -> String {
         Fault::NotAvailable { value, available } => not_available(key, value.as_deref(), available),
         Fault::Expression { text, source } => format!("`{key}` = \"{}\": {source}", plain(text)),
         Fault::Conflict { with, remedy } => format!("`{key}` and `{with}` exclude each other; {remedy}"),
+        Fault::OtherChoice { choice, value, remedy } => {
+            format!("`{key}` does not go with `{choice}` = \"{value}\"; {remedy}")
+        }
+        Fault::ValueOutOfRange { text, variable, at, value, bound, remedy } => {
+            let text = plain(text);
+            format!(
+                "`{key}` = \"{text}\" is {value:.6} at {variable} = {at:.6}: it must be {bound}; {remedy}"
+            )
+        }
         Fault::UnknownDensity { value, suggestion, densities } => {
             unknown_density(key, &plain(value), suggestion.as_deref(), densities)
         }

@@ -17,7 +17,6 @@ pub(super) struct Section<'d> {
     table: &'d DeTable<'d>,
     known: Vec<&'static str>,
     missing: Vec<(&'static str, &'static str)>,
-    planned: Vec<&'static str>,
 }
 
 impl<'d> Section<'d> {
@@ -27,7 +26,7 @@ impl<'d> Section<'d> {
         span: Range<usize>,
         table: &'d DeTable<'d>,
     ) -> Self {
-        Self { report, path, span, table, known: Vec::new(), missing: Vec::new(), planned: Vec::new() }
+        Self { report, path, span, table, known: Vec::new(), missing: Vec::new() }
     }
 
     /// The value of a key, if the table has it.
@@ -53,11 +52,6 @@ impl<'d> Section<'d> {
         self.get(key).and_then(Entry::section)
     }
 
-    /// A key that a later version will have.
-    pub(super) fn planned(&mut self, key: &'static str) {
-        self.planned.push(key);
-    }
-
     pub(super) fn is_empty(&self) -> bool {
         self.table.is_empty()
     }
@@ -80,11 +74,7 @@ impl<'d> Section<'d> {
             if self.known.contains(&name) {
                 continue;
             }
-            if self.planned.contains(&name) {
-                self.report.unsupported(&path, &key.span(), None, self.known.clone());
-                continue;
-            }
-            let suggestion = nearest(name, self.known.iter().chain(&self.planned).copied());
+            let suggestion = nearest(name, self.known.iter().copied());
             // A mistyped key is one problem, not an unknown key and a missing one.
             self.missing.retain(|(missing, _)| suggestion != Some(missing));
             let allowed = self.known.clone();

@@ -5,6 +5,7 @@ pub(super) const SHIPPED: &[(&str, &str)] = &[
     ("three_fold", include_str!("../../../../../scenes/three_fold.toml")),
     ("three_fold_sharp", include_str!("../../../../../scenes/three_fold_sharp.toml")),
     ("length_penalty", include_str!("../../../../../scenes/length_penalty.toml")),
+    ("incompressible", include_str!("../../../../../scenes/incompressible.toml")),
     ("membrane_penalty", include_str!("../../../../../scenes/membrane_penalty.toml")),
     ("adhesion", include_str!("../../../../../scenes/adhesion.toml")),
     ("figure_eight", include_str!("../../../../../scenes/figure_eight.toml")),

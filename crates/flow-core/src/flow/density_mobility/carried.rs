@@ -1,0 +1,34 @@
+//! A density that is only carried along: 𝓖 = 0. See `THEORY.md`, eq. (F16).
+
+use super::DensityMobility;
+use crate::geometry::Complex64;
+
+/// Every labelled segment keeps its mass.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Carried;
+
+impl DensityMobility for Carried {
+    fn name(&self) -> &'static str {
+        "none"
+    }
+
+    fn apply(&mut self, _: f64, _: &[Complex64], out: &mut [Complex64]) {
+        out.fill(Complex64::default());
+    }
+
+    fn symbol(&self, _: f64, _: f64) -> f64 {
+        0.0
+    }
+
+    fn order(&self) -> usize {
+        0
+    }
+
+    fn three_points(&self, _: usize, _: usize, _: f64) -> [f64; 3] {
+        [0.0; 3]
+    }
+
+    fn conserves_mass(&self) -> bool {
+        true
+    }
+}

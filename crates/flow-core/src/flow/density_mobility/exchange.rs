@@ -1,0 +1,34 @@
+//! Exchange with the surroundings, the Allen–Cahn flow: 𝓖 = Id. See `THEORY.md`, eq. (F15).
+
+use super::DensityMobility;
+use crate::geometry::Complex64;
+
+/// The mass is not conserved.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Exchange;
+
+impl DensityMobility for Exchange {
+    fn name(&self) -> &'static str {
+        "exchange"
+    }
+
+    fn apply(&mut self, _: f64, potential: &[Complex64], out: &mut [Complex64]) {
+        out.copy_from_slice(potential);
+    }
+
+    fn symbol(&self, _: f64, _: f64) -> f64 {
+        1.0
+    }
+
+    fn order(&self) -> usize {
+        0
+    }
+
+    fn three_points(&self, _: usize, _: usize, _: f64) -> [f64; 3] {
+        [0.0, 1.0, 0.0]
+    }
+
+    fn conserves_mass(&self) -> bool {
+        false
+    }
+}

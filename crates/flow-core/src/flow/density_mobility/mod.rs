@@ -1,0 +1,38 @@
+//! Density mobilities 𝓖: self-adjoint, ≥ 0. See `THEORY.md`, eqs. (F5) and (F14)–(F16).
+//!
+//! A new one is a file here, a name in `run/scene/density.rs` and a line in `run/setup.rs`.
+
+mod carried;
+mod diffusion;
+mod exchange;
+mod weighted_diffusion;
+
+use std::fmt::Debug;
+
+use crate::geometry::Complex64;
+
+pub use carried::Carried;
+pub use diffusion::Diffusion;
+pub use exchange::Exchange;
+pub use weighted_diffusion::WeightedDiffusion;
+
+/// Turns the chemical potential ∂_ρ𝓕 into the rate of a density: Dρ/Dt = −𝓖∂_ρ𝓕.
+pub trait DensityMobility: Debug + Send + Sync {
+    /// Name in scenes.
+    fn name(&self) -> &'static str;
+
+    /// 𝓖 of the spectrum `potential` into `out`, on a curve of length `length`.
+    fn apply(&mut self, length: f64, potential: &[Complex64], out: &mut [Complex64]);
+
+    /// Symbol of 𝓖 with its coefficients frozen at their means, for the symbol of −∂_s² per unit parameter.
+    fn symbol(&self, minus_laplacian: f64, length: f64) -> f64;
+
+    /// Order of 𝓖 as a differential operator.
+    fn order(&self) -> usize;
+
+    /// Second-order approximation of 𝓖 at node `node` of `nodes`: weights of the left neighbour, the node, the right one.
+    fn three_points(&self, node: usize, nodes: usize, length: f64) -> [f64; 3];
+
+    /// Whether the mass ∫ρ dσ is kept, whatever the energy.
+    fn conserves_mass(&self) -> bool;
+}

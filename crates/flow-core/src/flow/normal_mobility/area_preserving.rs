@@ -1,0 +1,33 @@
+//! Area held: 𝓑 = Id − ⟨·⟩. See `THEORY.md`, eq. (F9).
+
+use super::{Kept, NormalMobility};
+use crate::flow::CurveFields;
+
+/// V = f − ⟨f⟩, the mean over the curve.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct AreaPreserving;
+
+impl NormalMobility for AreaPreserving {
+    fn name(&self) -> &'static str {
+        "area-preserving"
+    }
+
+    fn apply(&mut self, _: &CurveFields, force: &[f64], velocity: &mut [f64]) {
+        let mean = force.iter().sum::<f64>() / force.len() as f64;
+        for (v, f) in velocity.iter_mut().zip(force) {
+            *v = f - mean;
+        }
+    }
+
+    fn symbol(&self, wave_square: f64) -> f64 {
+        if wave_square == 0.0 { 0.0 } else { 1.0 }
+    }
+
+    fn keeps(&self) -> Kept {
+        Kept { length: false, area: true }
+    }
+
+    fn boxed_clone(&self) -> Box<dyn NormalMobility> {
+        Box::new(*self)
+    }
+}

@@ -1,0 +1,26 @@
+//! L² flow: 𝓑 = Id. See `THEORY.md`, eq. (F4).
+
+use super::NormalMobility;
+use crate::flow::CurveFields;
+
+/// V = f.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Identity;
+
+impl NormalMobility for Identity {
+    fn name(&self) -> &'static str {
+        "identity"
+    }
+
+    fn apply(&mut self, _: &CurveFields, force: &[f64], velocity: &mut [f64]) {
+        velocity.copy_from_slice(force);
+    }
+
+    fn symbol(&self, _: f64) -> f64 {
+        1.0
+    }
+
+    fn boxed_clone(&self) -> Box<dyn NormalMobility> {
+        Box::new(*self)
+    }
+}

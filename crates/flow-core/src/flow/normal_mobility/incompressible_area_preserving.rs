@@ -1,0 +1,69 @@
+//! Local length and area held: 𝓑 = 𝓘 − 𝓘1 ⟨𝓘1, ·⟩/⟨𝓘1, 1⟩. See `THEORY.md`, eq. (F10).
+
+use super::{Incompressible, Kept, MobilityError, NormalMobility};
+use crate::flow::CurveFields;
+use crate::geometry::vectors::mean_of_product;
+use crate::operators::DerivativeFamily;
+
+/// Mean square of the part of 1 off κ below which the curve is a circle to rounding: 1 is in the kernel of 𝓘.
+const ROUND: f64 = 1e-24;
+
+/// V = 𝓘f − (⟨𝓘f, 1⟩/⟨𝓘1, 1⟩) 𝓘1. On a circle 𝓘1 = 0, and 𝓘 keeps the area by itself.
+#[derive(Clone, Debug)]
+pub struct IncompressibleAreaPreserving {
+    incompressible: Incompressible,
+    /// 1 less its component along κ, and 𝓘1.
+    one: Vec<f64>,
+    image: Vec<f64>,
+    /// 1/⟨𝓘1, 1⟩, or 0 on a circle.
+    inverse: f64,
+}
+
+impl IncompressibleAreaPreserving {
+    /// Room for one state of `nodes` ≥ [`crate::operators::Helmholtz::FEWEST_NODES`] nodes.
+    #[must_use]
+    pub fn new(family: DerivativeFamily, nodes: usize) -> Self {
+        Self {
+            incompressible: Incompressible::new(family, nodes),
+            one: vec![0.0; nodes],
+            image: vec![0.0; nodes],
+            inverse: 0.0,
+        }
+    }
+}
+
+impl NormalMobility for IncompressibleAreaPreserving {
+    fn name(&self) -> &'static str {
+        "incompressible-area-preserving"
+    }
+
+    fn set(&mut self, at: &CurveFields) -> Result<(), MobilityError> {
+        self.incompressible.set(at)?;
+        self.one.fill(1.0);
+        self.incompressible.project(at.at_nodes(0), &mut self.one);
+        self.incompressible.apply(at, &self.one, &mut self.image);
+        let square = mean_of_product(&self.image, &self.one);
+        self.inverse = if square > ROUND { 1.0 / square } else { 0.0 };
+        Ok(())
+    }
+
+    fn apply(&mut self, at: &CurveFields, force: &[f64], velocity: &mut [f64]) {
+        self.incompressible.apply(at, force, velocity);
+        let factor = self.inverse * mean_of_product(velocity, &self.one);
+        for (v, image) in velocity.iter_mut().zip(&self.image) {
+            *v -= factor * image;
+        }
+    }
+
+    fn symbol(&self, wave_square: f64) -> f64 {
+        self.incompressible.symbol(wave_square)
+    }
+
+    fn keeps(&self) -> Kept {
+        Kept { length: true, area: true }
+    }
+
+    fn boxed_clone(&self) -> Box<dyn NormalMobility> {
+        Box::new(self.clone())
+    }
+}

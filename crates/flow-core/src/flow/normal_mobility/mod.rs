@@ -1,0 +1,71 @@
+//! Normal mobilities 𝓑: self-adjoint, ≥ 0. See `THEORY.md`, eqs. (F4) and (F8)–(F13).
+//!
+//! A new one is a file here, a name in `run/scene/flow.rs` and a line in `run/mobilities.rs`.
+
+mod area_preserving;
+mod identity;
+mod incompressible;
+mod incompressible_area_preserving;
+mod surface_diffusion;
+
+use std::fmt::Debug;
+
+use super::curve_fields::CurveFields;
+use crate::operators::HelmholtzError;
+
+pub use area_preserving::AreaPreserving;
+pub use identity::Identity;
+pub use incompressible::Incompressible;
+pub use incompressible_area_preserving::IncompressibleAreaPreserving;
+pub use surface_diffusion::SurfaceDiffusion;
+
+/// A mobility cannot be used at a state.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MobilityError {
+    /// The Helmholtz operator has no inverse there.
+    #[error(transparent)]
+    Helmholtz(#[from] HelmholtzError),
+}
+
+/// Global quantities that the flow keeps, whatever the energy.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Kept {
+    /// The length |Γ|.
+    pub length: bool,
+    /// The enclosed area.
+    pub area: bool,
+}
+
+/// Turns the force on the normal motion into the normal velocity; holds what it needs of one state.
+pub trait NormalMobility: Debug + Send + Sync {
+    /// Name in scenes.
+    fn name(&self) -> &'static str;
+
+    /// Prepares 𝓑 at the state `at`, without allocating.
+    ///
+    /// # Errors
+    /// [`MobilityError`] if 𝓑 is not defined there.
+    fn set(&mut self, _at: &CurveFields) -> Result<(), MobilityError> {
+        Ok(())
+    }
+
+    /// V = 𝓑f at the state `at`, that of [`NormalMobility::set`]. Shapes: one value per node.
+    fn apply(&mut self, at: &CurveFields, force: &[f64], velocity: &mut [f64]);
+
+    /// Symbol of 𝓑 with coefficients frozen at their means, for the symbol k² of −`Δ_s`.
+    fn symbol(&self, wave_square: f64) -> f64;
+
+    /// Order of 𝓑 as a differential operator.
+    fn order(&self) -> usize {
+        0
+    }
+
+    /// What the flow keeps.
+    fn keeps(&self) -> Kept {
+        Kept::default()
+    }
+
+    /// The same mobility for another state.
+    fn boxed_clone(&self) -> Box<dyn NormalMobility>;
+}

@@ -1,0 +1,57 @@
+//! H⁻¹ flow, "surface diffusion": 𝓑 = −`Δ_s`. See `THEORY.md`, eq. (F12).
+
+use super::{Kept, NormalMobility};
+use crate::flow::CurveFields;
+use crate::geometry::{Complex64, PeriodicGrid};
+use crate::operators::Derivative;
+
+/// V = −`Δ_s` f by the second derivative of the family.
+#[derive(Clone, Debug)]
+pub struct SurfaceDiffusion {
+    grid: PeriodicGrid,
+    minus_laplacian: Vec<f64>,
+    spectrum: Vec<Complex64>,
+}
+
+impl SurfaceDiffusion {
+    /// The mobility on a grid.
+    #[must_use]
+    pub fn new(grid: &PeriodicGrid, derivative: &Derivative) -> Self {
+        Self {
+            grid: grid.clone(),
+            minus_laplacian: derivative.minus_laplacian().to_vec(),
+            spectrum: vec![Complex64::default(); grid.modes()],
+        }
+    }
+}
+
+impl NormalMobility for SurfaceDiffusion {
+    fn name(&self) -> &'static str {
+        "surface-diffusion"
+    }
+
+    fn apply(&mut self, at: &CurveFields, force: &[f64], velocity: &mut [f64]) {
+        self.grid.transform(force, &mut self.spectrum);
+        let scale = at.length().powi(-2);
+        for (value, symbol) in self.spectrum.iter_mut().zip(&self.minus_laplacian) {
+            *value *= scale * symbol;
+        }
+        self.grid.synthesise(&self.spectrum, velocity);
+    }
+
+    fn symbol(&self, wave_square: f64) -> f64 {
+        wave_square
+    }
+
+    fn order(&self) -> usize {
+        2
+    }
+
+    fn keeps(&self) -> Kept {
+        Kept { length: false, area: true }
+    }
+
+    fn boxed_clone(&self) -> Box<dyn NormalMobility> {
+        Box::new(self.clone())
+    }
+}

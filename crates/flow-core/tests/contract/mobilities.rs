@@ -1,0 +1,72 @@
+//! Every mobility.
+
+use flow_core::flow::{
+    AreaPreserving, Carried, DensityMobility, Diffusion, Exchange, Identity, Incompressible,
+    IncompressibleAreaPreserving, NormalMobility, SurfaceDiffusion, WeightedDiffusion,
+};
+use flow_core::geometry::PeriodicGrid;
+use flow_core::operators::Derivative;
+
+/// A normal mobility.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Normal {
+    Identity,
+    Incompressible,
+    AreaPreserving,
+    IncompressibleAreaPreserving,
+    SurfaceDiffusion,
+}
+
+impl Normal {
+    /// Every normal mobility.
+    pub const ALL: [Self; 5] = [
+        Self::Identity,
+        Self::Incompressible,
+        Self::AreaPreserving,
+        Self::IncompressibleAreaPreserving,
+        Self::SurfaceDiffusion,
+    ];
+
+    pub fn build(self, grid: &PeriodicGrid, derivative: &Derivative) -> Box<dyn NormalMobility> {
+        let (family, nodes) = (derivative.family(), grid.nodes());
+        match self {
+            Self::Identity => Box::new(Identity),
+            Self::Incompressible => Box::new(Incompressible::new(family, nodes)),
+            Self::AreaPreserving => Box::new(AreaPreserving),
+            Self::IncompressibleAreaPreserving => Box::new(IncompressibleAreaPreserving::new(family, nodes)),
+            Self::SurfaceDiffusion => Box::new(SurfaceDiffusion::new(grid, derivative)),
+        }
+    }
+}
+
+/// A density mobility.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Density {
+    Diffusion,
+    Weighted,
+    Exchange,
+    Carried,
+}
+
+impl Density {
+    /// Every density mobility.
+    pub const ALL: [Self; 4] = [Self::Diffusion, Self::Weighted, Self::Exchange, Self::Carried];
+
+    /// The two that follow each other at `index`, for two densities.
+    pub fn two(index: usize) -> [Self; 2] {
+        [Self::ALL[index % 4], Self::ALL[(index + 1) % 4]]
+    }
+
+    pub fn build(self, grid: &PeriodicGrid, derivative: &Derivative) -> Box<dyn DensityMobility> {
+        match self {
+            Self::Diffusion => Box::new(Diffusion::new(derivative)),
+            Self::Weighted => {
+                let weight = |s: &f64| 1.0 + 0.8 * (std::f64::consts::TAU * s).cos();
+                let points = WeightedDiffusion::flux_points(grid, derivative);
+                Box::new(WeightedDiffusion::new(grid, derivative, points.iter().map(weight).collect()))
+            }
+            Self::Exchange => Box::new(Exchange),
+            Self::Carried => Box::new(Carried),
+        }
+    }
+}
