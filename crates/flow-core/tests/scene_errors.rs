@@ -360,6 +360,41 @@ const MISTAKES: &[Mistake] = &[
         "[flow]\ngauge = \"arc-length\"\n[time]",
         &["line 19", "\"arc-length\"", "`scaled-arc-length`"],
     ),
+    (
+        "[time]",
+        "[flow]\ngauge = \"co-moving\"\n[time]",
+        &["line 19 | gauge", "\"co-moving\" is not available yet", "`scaled-arc-length`", "`graded`"],
+    ),
+    (
+        "[time]",
+        "[flow]\ngauge = \"graded\"\n[time]",
+        &["line 18 | [flow]", "`flow.grading` is missing", "grading = \"1 + 0.6*cos(4*pi*s)\""],
+    ),
+    (
+        "[time]",
+        "[flow]\ngrading = \"1 + 0.5*cos(2*pi*s)\"\n[time]",
+        &[
+            "line 19 | grading",
+            "`flow.grading` does not go with `gauge` = \"scaled-arc-length\"",
+            "use gauge = \"graded\"",
+        ],
+    ),
+    (
+        "[time]",
+        "[flow]\ngauge = \"graded\"\ngrading = \"cos(2*pi*s)\"\n[time]",
+        &[
+            "line 20 | grading",
+            "`flow.grading` = \"cos(2*pi*s)\" is ",
+            " at s = ",
+            "greater than 0",
+            "add a constant",
+        ],
+    ),
+    (
+        "[time]",
+        "[flow]\ngauge = \"graded\"\ngrading = \"1 + cos(phi)\"\n[time]",
+        &["line 20 | grading", "`flow.grading`", "phi"],
+    ),
     ("[time]", "[tiem]", &["line 18 | [tiem]", "unknown key `tiem`", "did you mean `time`"]),
     ("title = \"good\"", "title = good", &["line 2 | title = good", "not valid TOML at column 9", "quotes"]),
     ("end = 1.0", "end = 1.0\nend = 2.0", &["line 20 | end = 2.0", "duplicate key", "only once"]),

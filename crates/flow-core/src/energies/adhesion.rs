@@ -8,7 +8,7 @@ use crate::geometry::vectors::{self, dot};
 
 /// Self-interaction of the curve by a kernel of the squared distance q.
 ///
-/// On the grid (|Γ|/n)² Σᵢⱼ G(|γᵢ − γⱼ|²), i = j included: the sum over all pairs within the cut-off, found by a list of
+/// On the grid (|Γ|/n)² Σᵢⱼ wᵢwⱼG(|γᵢ − γⱼ|²), i = j included: the sum over all pairs within the cut-off, found by a list of
 /// cells, with exact derivatives.
 #[derive(Clone, Debug)]
 pub struct Adhesion {
@@ -22,6 +22,8 @@ pub struct Adhesion {
     /// Sums at the sorted nodes.
     sums: [Vec<f64>; 2],
     motion: [Vec<f64>; 2],
+    /// Weights of the sorted nodes; empty if all are 1.
+    weight: Vec<f64>,
 }
 
 /// What the second derivative needs.
@@ -71,6 +73,7 @@ impl Adhesion {
             pull: pair(),
             sums: pair(),
             motion: pair(),
+            weight: Vec::with_capacity(nodes),
         })
     }
 
@@ -100,6 +103,14 @@ impl Adhesion {
                 }
                 let [value, first, second] = self.values.each_mut().map(|values| &mut values[..count]);
                 self.kernel.evaluate(squares, order, [&mut *value, &mut *first, &mut *second]);
+                if !self.weight.is_empty() {
+                    let weight = &self.weight[others.clone()];
+                    weigh(value, self.weight[place], weight);
+                    weigh(first, self.weight[place], weight);
+                    if order >= Order::Hessian {
+                        weigh(second, self.weight[place], weight);
+                    }
+                }
                 if order >= Order::Hessian {
                     self.frozen.first.extend_from_slice(first);
                     self.frozen.second.extend_from_slice(second);
@@ -149,6 +160,11 @@ impl Adhesion {
     }
 }
 
+/// values ×= factor × weight.
+fn weigh(values: &mut [f64], factor: f64, weight: &[f64]) {
+    values.iter_mut().zip(weight).for_each(|(value, weight)| *value *= factor * weight);
+}
+
 /// sums −= pull.
 fn take(sums: &mut [f64], pull: &[f64]) {
     sums.iter_mut().zip(pull).for_each(|(sum, pull)| *sum -= pull);
@@ -175,8 +191,13 @@ impl EnergyTerm for Adhesion {
             self.frozen.first.clear();
             self.frozen.second.clear();
         }
+        self.weight.clear();
+        if !shape.weight.is_empty() {
+            self.weight.extend(self.cells.order().iter().map(|node| shape.weight[*node]));
+        }
         let pairs = self.sum_pairs(order);
-        let energy = (length / nodes).powi(2) * (nodes * self.kernel.at_zero() + 2.0 * pairs);
+        let squares = if self.weight.is_empty() { nodes } else { dot(&self.weight, &self.weight) };
+        let energy = (length / nodes).powi(2) * (squares * self.kernel.at_zero() + 2.0 * pairs);
         let factor = 4.0 * length * length / nodes;
         for (place, &node) in self.cells.order().iter().enumerate() {
             for axis in 0..2 {

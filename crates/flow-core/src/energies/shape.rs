@@ -7,10 +7,12 @@
 pub struct ShapeFields {
     /// Position γ at the nodes; that of a curve has mean zero.
     pub position: [Vec<f64>; 2],
-    /// Tangent τ at the nodes: ∂_sγ = |Γ|τ. Of unit length up to what the nodes do not resolve.
+    /// Tangent wτ per length at the nodes: ∂_sγ = |Γ|wτ. Of length w up to what the nodes do not resolve.
     pub tangent: [Vec<f64>; 2],
     /// Length |Γ|.
     pub length: f64,
+    /// Weights w of the nodes in means over the curve, which no motion changes; empty if all are 1.
+    pub weight: Vec<f64>,
 }
 
 impl ShapeFields {
@@ -18,16 +20,16 @@ impl ShapeFields {
     #[must_use]
     pub fn new(nodes: usize) -> Self {
         let field = || [vec![0.0; nodes], vec![0.0; nodes]];
-        Self { position: field(), tangent: field(), length: 0.0 }
+        Self { position: field(), tangent: field(), length: 0.0, weight: Vec::new() }
     }
 
-    /// Sets all to zero.
+    /// Sets all but the weights to zero.
     pub fn clear(&mut self) {
         self.position.iter_mut().chain(&mut self.tangent).for_each(|field| field.fill(0.0));
         self.length = 0.0;
     }
 
-    /// Takes the values of `other`, without allocating.
+    /// Takes the values of `other`, which has the same weights, without allocating.
     pub fn copy_from(&mut self, other: &Self) {
         for axis in 0..2 {
             self.position[axis].copy_from_slice(&other.position[axis]);

@@ -1,7 +1,11 @@
 //! The fields of one state where the operators need them: at nodes, as spectra, at flux points.
 
-use crate::geometry::vectors::{apply_symbol, scale_into};
-use crate::geometry::{Complex64, Layout, PeriodicGrid, SpectralLayout};
+use std::sync::Arc;
+
+use crate::geometry::vectors::{
+    apply_symbol, mean, mean_of_product, mean_of_triple_product, multiply, scale_into,
+};
+use crate::geometry::{Complex64, Grading, Layout, PeriodicGrid, SpectralLayout};
 use crate::operators::Derivative;
 
 /// Pointwise fields κ, ρ¹, ρ², … of one state.
@@ -14,7 +18,16 @@ pub struct CurveFields {
     spectra: Vec<Complex64>,
     /// Fields at the flux points, unless these are the nodes.
     interpolated: Option<Vec<f64>>,
+    graded: Option<Graded>,
     scratch: Vec<Complex64>,
+}
+
+/// What differs from the uniform metric.
+#[derive(Clone, Debug)]
+struct Graded {
+    grading: Arc<Grading>,
+    /// Spectra of wφ.
+    weighted: Vec<Complex64>,
 }
 
 impl CurveFields {
@@ -22,13 +35,16 @@ impl CurveFields {
     #[must_use]
     pub fn new(layout: Layout, grid: &PeriodicGrid, derivative: &Derivative) -> Self {
         let (size, modes) = (layout.fields() * layout.nodes(), grid.modes());
+        let spectra = vec![Complex64::default(); layout.fields() * modes];
+        let graded = |grading: &Arc<Grading>| Graded { grading: grading.clone(), weighted: spectra.clone() };
         Self {
             layout,
             modes,
             length: 1.0,
             pointwise: vec![0.0; size],
-            spectra: vec![Complex64::default(); layout.fields() * modes],
             interpolated: derivative.interpolation().map(|_| vec![0.0; size]),
+            graded: derivative.grading().map(graded),
+            spectra,
             scratch: vec![Complex64::default(); modes],
         }
     }
@@ -37,14 +53,21 @@ impl CurveFields {
     pub fn set(&mut self, state: &[f64], grid: &mut PeriodicGrid, derivative: &Derivative) {
         let layout = SpectralLayout::new(self.layout);
         self.length = state[layout.length_index()];
-        let pairs = bytemuck::cast_slice_mut(&mut self.spectra);
-        scale_into(pairs, 1.0 / self.length, &state[..layout.length_index()]);
+        let target = self.graded.as_mut().map_or(&mut self.spectra, |graded| &mut graded.weighted);
+        scale_into(bytemuck::cast_slice_mut(target), 1.0 / self.length, &state[..layout.length_index()]);
         for field in 0..self.layout.fields() {
             let range = self.layout.field(field);
-            let spectrum = &self.spectra[field * self.modes..(field + 1) * self.modes];
-            grid.synthesise(spectrum, &mut self.pointwise[range.clone()]);
+            let modes = field * self.modes..(field + 1) * self.modes;
+            let values = &mut self.pointwise[range.clone()];
+            if let Some(Graded { grading, weighted }) = &self.graded {
+                grid.synthesise(&weighted[modes.clone()], values);
+                multiply(values, grading.inverse());
+                grid.transform(values, &mut self.spectra[modes.clone()]);
+            } else {
+                grid.synthesise(&self.spectra[modes.clone()], values);
+            }
             if let (Some(symbol), Some(values)) = (derivative.interpolation(), &mut self.interpolated) {
-                apply_symbol(&mut self.scratch, spectrum, symbol);
+                apply_symbol(&mut self.scratch, &self.spectra[modes], symbol);
                 grid.synthesise(&self.scratch, &mut values[range]);
             }
         }
@@ -56,10 +79,28 @@ impl CurveFields {
         self.layout
     }
 
-    /// Length |Γ|, the uniform metric.
+    /// Length |Γ|; the metric is |Γ|w.
     #[must_use]
     pub fn length(&self) -> f64 {
         self.length
+    }
+
+    /// The weights w of the nodes; none if all are 1.
+    #[must_use]
+    pub fn weight(&self) -> Option<&[f64]> {
+        self.graded.as_ref().map(|graded| graded.grading.weight())
+    }
+
+    /// Mean of nodal values over the curve.
+    #[must_use]
+    pub fn mean(&self, values: &[f64]) -> f64 {
+        self.weight().map_or_else(|| mean(values), |weight| mean_of_product(weight, values))
+    }
+
+    /// Mean over the curve of the products of nodal values.
+    #[must_use]
+    pub fn mean_of_product(&self, a: &[f64], b: &[f64]) -> f64 {
+        self.weight().map_or_else(|| mean_of_product(a, b), |weight| mean_of_triple_product(weight, a, b))
     }
 
     /// All pointwise fields, one after the other.
@@ -84,5 +125,12 @@ impl CurveFields {
     #[must_use]
     pub fn spectrum(&self, field: usize) -> &[Complex64] {
         &self.spectra[field * self.modes..(field + 1) * self.modes]
+    }
+
+    /// Fourier coefficients of w times field `field`: of the state per length.
+    #[must_use]
+    pub fn weighted_spectrum(&self, field: usize) -> &[Complex64] {
+        let spectra = self.graded.as_ref().map_or(&self.spectra, |graded| &graded.weighted);
+        &spectra[field * self.modes..(field + 1) * self.modes]
     }
 }

@@ -1,14 +1,15 @@
 //! The sum of the energy terms with its exact gradient and second derivative on the grid.
 //!
 //! With pointwise fields φ and length L, `𝓕_h` = L⟨e⟩ + Σ c/(2L) ⟨|D₊φ|²⟩ + L⟨e′⟩ + Φ(L), ⟨·⟩ the mean over the
-//! nodes. See `THEORY.md`, eqs. (D3)–(D5).
+//! nodes; on graded nodes w enters as a weight. See `THEORY.md`, eqs. (D3)–(D5) and (D9).
 
 use super::curve_fields::CurveFields;
+use super::graded_energy::GradedEnergy;
 use super::shape_energy::ShapeEnergy;
 use super::slope_energy::SlopeEnergy;
 use crate::energies::{EnergyTerm, Fields, Jet, LengthJet, Order, TermFault};
 use crate::geometry::vectors::{
-    add_product, add_real_symbol, add_scaled, dot, mean, multiply_into, scale_into, weighted_dot,
+    add_product, add_real_symbol, add_scaled, dot, multiply, multiply_into, scale_into, weighted_dot,
 };
 use crate::geometry::{Complex64, Layout, PeriodicGrid, SpectralLayout};
 use crate::operators::Derivative;
@@ -29,6 +30,7 @@ pub struct EnergySum {
     layout: Layout,
     grid: PeriodicGrid,
     derivative: Derivative,
+    graded: Option<GradedEnergy>,
     stiffness: Vec<f64>,
     jet: Jet,
     slopes: Option<SlopeEnergy>,
@@ -38,6 +40,8 @@ pub struct EnergySum {
     motion: Vec<f64>,
     motion_spectra: Vec<Complex64>,
     product: Vec<f64>,
+    /// Change of `e_φ` at the nodes under a motion; on graded nodes only.
+    density_rates: Vec<f64>,
 }
 
 impl EnergySum {
@@ -65,6 +69,7 @@ impl EnergySum {
             layout,
             grid: grid.clone(),
             derivative: derivative.clone(),
+            graded: GradedEnergy::of(layout, grid, derivative),
             stiffness,
             jet: Jet::new(nodes, fields),
             slopes,
@@ -73,6 +78,7 @@ impl EnergySum {
             motion: vec![0.0; nodes * fields],
             motion_spectra: vec![Complex64::default(); grid.modes() * fields],
             product: vec![0.0; nodes],
+            density_rates: vec![0.0; if derivative.grading().is_some() { nodes * fields } else { 0 }],
         }
     }
 
@@ -121,7 +127,8 @@ impl EnergySum {
         if self.terms[term].has_density() {
             self.terms[term].add_density(Fields::new(nodes, at.pointwise()), &mut density);
         }
-        let mut energy = at.length() * mean(density.value()) + self.terms[term].of_length(at.length()).value;
+        let mut energy =
+            at.length() * at.mean(density.value()) + self.terms[term].of_length(at.length()).value;
         for field in 0..self.layout.fields() {
             let coefficient = self.terms[term].stiffness(field);
             if coefficient != 0.0 {
@@ -137,9 +144,12 @@ impl EnergySum {
         energy
     }
 
-    /// ⟨|D₊φ|²⟩ by Parseval's identity.
-    fn slope_square(&self, spectrum: &[Complex64]) -> f64 {
-        self.slope_product(spectrum, spectrum)
+    /// ⟨|D₊φ|²⟩, on graded nodes ⟨|D₊φ|²/w⟩, by Parseval's identity.
+    fn slope_square(&mut self, spectrum: &[Complex64]) -> f64 {
+        match &mut self.graded {
+            None => self.slope_product(spectrum, spectrum),
+            Some(graded) => mean_product(&self.grid, spectrum, graded.image(spectrum)),
+        }
     }
 
     fn slope_product(&self, a: &[Complex64], b: &[Complex64]) -> f64 {
@@ -150,12 +160,6 @@ impl EnergySum {
             .sawtooth_mode()
             .map_or(0.0, |m| self.derivative.minus_laplacian()[m] * (a[m].re * b[m].re + a[m].im * b[m].im));
         2.0 * full - once
-    }
-
-    fn mean_product(&self, a: &[Complex64], b: &[Complex64]) -> f64 {
-        let product = |m: usize| a[m].re * b[m].re + a[m].im * b[m].im;
-        let full = dot(bytemuck::cast_slice(a), bytemuck::cast_slice(b));
-        2.0 * full - product(0) - self.grid.sawtooth_mode().map_or(0.0, product)
     }
 
     /// Energy, and its gradient into `gradient`.
@@ -175,18 +179,32 @@ impl EnergySum {
             term.add_density(Fields::new(nodes, at.pointwise()), &mut self.jet);
         }
         let of_length = self.of_length(length);
-        let mean_density = mean(self.jet.value());
+        let mean_density = at.mean(self.jet.value());
         let mut energy = length * mean_density + of_length.value;
         let mut by_length = mean_density + of_length.first;
         for field in 0..self.layout.fields() {
             let p = &mut gradient.spectra[field * modes..(field + 1) * modes];
-            self.grid.transform(self.jet.first(field), p);
             let coefficient = self.stiffness[field];
+            if self.graded.is_some() {
+                p.fill(Complex64::default());
+            } else {
+                self.grid.transform(self.jet.first(field), p);
+            }
             if coefficient != 0.0 {
                 let phi = at.spectrum(field);
                 let scale = coefficient / (length * length);
-                add_real_symbol(p, scale, phi, self.derivative.minus_laplacian());
-                let square = self.slope_square(phi);
+                let square = if let Some(graded) = &mut self.graded {
+                    let image = graded.image(phi);
+                    add_spectrum(p, scale, image);
+                    let square = mean_product(&self.grid, phi, image);
+                    if order >= Order::Hessian {
+                        graded.freeze(field);
+                    }
+                    square
+                } else {
+                    add_real_symbol(p, scale, phi, self.derivative.minus_laplacian());
+                    self.slope_product(phi, phi)
+                };
                 if order >= Order::Hessian {
                     self.frozen_slope_squares[field] = square;
                 }
@@ -200,8 +218,11 @@ impl EnergySum {
             by_length += derivative;
         }
         for field in 0..self.layout.fields() {
-            let p = &gradient.spectra[field * modes..(field + 1) * modes];
-            by_length -= self.mean_product(at.spectrum(field), p);
+            let p = &mut gradient.spectra[field * modes..(field + 1) * modes];
+            if let Some(graded) = &mut self.graded {
+                graded.finish(self.jet.first(field), p);
+            }
+            by_length -= mean_product(&self.grid, at.weighted_spectrum(field), p);
         }
         gradient.by_length = by_length;
         if let Some(shape) = &mut self.shape {
@@ -219,9 +240,13 @@ impl EnergySum {
         for field in 0..fields {
             let spectrum = &mut self.motion_spectra[field * modes..(field + 1) * modes];
             scale_into(bytemuck::cast_slice_mut(spectrum), 1.0 / length, &v[layout.field(field)]);
-            let phi = bytemuck::cast_slice(at.spectrum(field));
-            add_scaled(bytemuck::cast_slice_mut(spectrum), -length_motion / length, phi);
-            self.grid.synthesise(spectrum, &mut self.motion[self.layout.field(field)]);
+            add_spectrum(spectrum, -length_motion / length, at.weighted_spectrum(field));
+            let motion = &mut self.motion[self.layout.field(field)];
+            self.grid.synthesise(spectrum, motion);
+            if let Some(grading) = self.derivative.grading() {
+                multiply(motion, grading.inverse());
+                self.grid.transform(motion, spectrum);
+            }
         }
         let mut by_length = self.of_length(length).second * length_motion;
         for field in 0..fields {
@@ -231,16 +256,28 @@ impl EnergySum {
                 add_product(&mut self.product, self.jet.second(field, other), motion);
             }
             let p = &mut out.spectra[field * modes..(field + 1) * modes];
-            self.grid.transform(&self.product, p);
+            if self.graded.is_some() {
+                self.density_rates[self.layout.field(field)].copy_from_slice(&self.product);
+                p.fill(Complex64::default());
+            } else {
+                self.grid.transform(&self.product, p);
+            }
             let coefficient = self.stiffness[field];
             if coefficient != 0.0 {
                 let (phi, motion) =
                     (at.spectrum(field), &self.motion_spectra[field * modes..(field + 1) * modes]);
                 let scale = coefficient / (length * length);
-                let laplacian = self.derivative.minus_laplacian();
-                add_real_symbol(p, scale, motion, laplacian);
-                add_real_symbol(p, -2.0 * scale * length_motion / length, phi, laplacian);
-                let cross = self.slope_product(phi, motion);
+                let shrink = -2.0 * scale * length_motion / length;
+                let cross = if let Some(graded) = &mut self.graded {
+                    add_spectrum(p, scale, graded.image(motion));
+                    add_spectrum(p, shrink, graded.frozen(field));
+                    mean_product(&self.grid, graded.frozen(field), motion)
+                } else {
+                    let laplacian = self.derivative.minus_laplacian();
+                    add_real_symbol(p, scale, motion, laplacian);
+                    add_real_symbol(p, shrink, phi, laplacian);
+                    self.slope_product(phi, motion)
+                };
                 by_length +=
                     scale * (self.frozen_slope_squares[field] / length * length_motion - 2.0 * cross);
             }
@@ -249,12 +286,27 @@ impl EnergySum {
             by_length += slopes.add_hessian_product(at, &self.motion_spectra, length_motion, out);
         }
         for field in 0..fields {
-            by_length -=
-                self.mean_product(at.spectrum(field), &out.spectra[field * modes..(field + 1) * modes]);
+            let p = &mut out.spectra[field * modes..(field + 1) * modes];
+            if let Some(graded) = &mut self.graded {
+                graded.finish(&self.density_rates[self.layout.field(field)], p);
+            }
+            by_length -= mean_product(&self.grid, at.weighted_spectrum(field), p);
         }
         out.by_length = by_length;
         if let Some(shape) = &mut self.shape {
             shape.add_hessian_product(&mut self.terms, v, out);
         }
     }
+}
+
+/// Mean of the product of two fields by Parseval's identity.
+fn mean_product(grid: &PeriodicGrid, a: &[Complex64], b: &[Complex64]) -> f64 {
+    let product = |m: usize| a[m].re * b[m].re + a[m].im * b[m].im;
+    let full = dot(bytemuck::cast_slice(a), bytemuck::cast_slice(b));
+    2.0 * full - product(0) - grid.sawtooth_mode().map_or(0.0, product)
+}
+
+/// out += factor × spectrum.
+fn add_spectrum(out: &mut [Complex64], factor: f64, spectrum: &[Complex64]) {
+    add_scaled(bytemuck::cast_slice_mut(out), factor, bytemuck::cast_slice(spectrum));
 }

@@ -3,7 +3,8 @@
 use super::gradient_flow::GradientFlow;
 use super::normal_mobility::MobilityError;
 use crate::geometry::Complex64;
-use crate::operators::Helmholtz;
+use crate::geometry::vectors::multiply;
+use crate::operators::CurveHelmholtz;
 
 /// Excess density and flux of the membrane at one state. Shapes: one value per node and per flux point.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -32,7 +33,7 @@ impl GradientFlow {
         let kappa = self.current().at_nodes(0).to_vec();
         let right: Vec<f64> = kappa.iter().zip(self.normal_force()).map(|(kappa, f)| -kappa * f).collect();
         let (grid, derivative) = self.grid_and_derivative();
-        let mut helmholtz = Helmholtz::new(derivative.family(), nodes);
+        let mut helmholtz = CurveHelmholtz::new(derivative, nodes);
         helmholtz.set(&kappa, length)?;
         let (mut density, mut flux) = (vec![0.0; nodes], vec![0.0; nodes]);
         helmholtz.solve(&right, &mut density);
@@ -42,6 +43,9 @@ impl GradientFlow {
             *value *= -symbol / length;
         }
         grid.synthesise(&spectrum, &mut flux);
+        if let Some(grading) = derivative.grading() {
+            multiply(&mut flux, grading.inverse_at_midpoints());
+        }
         Ok(ExcessDensity { density, flux })
     }
 }

@@ -1,14 +1,18 @@
 //! The flow map A: normal velocity ↦ rates of the state, gauge included, and its exact transpose.
 //!
-//! Scaled arc-length gauge: ∂_sW = −|Γ|κV + ∂_t|Γ|, so that the metric stays uniform. See `THEORY.md`, eqs. (F1)–(F3).
+//! Scaled arc-length gauge: ∂_sW = w(−|Γ|κV + ∂_t|Γ|), so that the metric stays |Γ|w. See `THEORY.md`, eqs. (F1)–(F3).
+
+use std::sync::Arc;
+
+use bytemuck::{cast_slice, cast_slice_mut};
 
 use super::curve_fields::CurveFields;
 use crate::geometry::vectors::{
-    add_product, add_real_symbol, add_scaled, apply_real_symbol, apply_symbol, multiply_by,
-    multiply_by_conjugate, multiply_into,
+    add_product, add_real_symbol, add_scaled, apply_real_symbol, apply_symbol, mean, mean_of_product,
+    multiply, multiply_by, multiply_by_conjugate, multiply_into,
 };
-use crate::geometry::{Complex64, Layout, PeriodicGrid};
-use crate::operators::Derivative;
+use crate::geometry::{Complex64, Grading, Layout, PeriodicGrid};
+use crate::operators::{Derivative, GradedLaplacian};
 
 /// Applies A and Aᵀ on one grid; holds all scratch.
 #[derive(Clone, Debug)]
@@ -16,9 +20,11 @@ pub struct FlowMap {
     layout: Layout,
     grid: PeriodicGrid,
     derivative: Derivative,
+    graded: Option<GradedLaplacian>,
     values: Vec<f64>,
     product: Vec<f64>,
     spectrum: Vec<Complex64>,
+    image: Vec<Complex64>,
     tangential: Vec<f64>,
 }
 
@@ -31,9 +37,11 @@ impl FlowMap {
             layout,
             grid: grid.clone(),
             derivative: derivative.clone(),
+            graded: GradedLaplacian::of(grid, derivative),
             values: field.clone(),
             product: field.clone(),
             spectrum: vec![Complex64::default(); grid.modes()],
+            image: vec![Complex64::default(); grid.modes()],
             tangential: field,
         }
     }
@@ -41,6 +49,17 @@ impl FlowMap {
     /// Grid and derivative, for others who work on the same nodes.
     pub fn grid_and_derivative(&mut self) -> (&mut PeriodicGrid, &Derivative) {
         (&mut self.grid, &self.derivative)
+    }
+
+    /// The grading of the nodes; none if they are uniform.
+    #[must_use]
+    pub fn grading(&self) -> Option<&Arc<Grading>> {
+        self.derivative.grading()
+    }
+
+    /// −`Δ_s` without its length, on graded nodes.
+    pub fn graded_laplacian(&mut self) -> Option<&mut GradedLaplacian> {
+        self.graded.as_mut()
     }
 
     /// How often a mode stands in the full spectrum.
@@ -65,13 +84,30 @@ impl FlowMap {
                 add_product(&mut self.product, phi, &self.values);
             }
         }
+        if let Some(graded) = &self.graded {
+            // W has mean zero over the curve, not over the flux points.
+            let weight = graded.grading().at_midpoints();
+            let excess = -mean(&self.product) / graded.grading().midpoint_mean();
+            add_scaled(&mut self.product, excess, weight);
+        }
         self.grid.transform(&self.product, &mut self.spectrum);
         multiply_by(&mut self.spectrum, self.derivative.inverse_to_flux());
         self.grid.synthesise(&self.spectrum, &mut self.values);
+        let by_length = match &self.graded {
+            None => by_length,
+            Some(graded) => by_length + mean_of_product(graded.grading().weight(), &self.values),
+        };
         for ((force, z), kappa) in force.iter_mut().zip(&self.values).zip(at.at_nodes(0)) {
             *force = kappa * (z - by_length);
         }
         let scale = -1.0 / at.length().powi(2);
+        if let Some(graded) = &mut self.graded {
+            graded.apply(&gradient[..modes], &mut self.spectrum);
+            self.grid.synthesise(&self.spectrum, &mut self.values);
+            multiply(&mut self.values, graded.grading().inverse());
+            add_scaled(force, scale, &self.values);
+            return;
+        }
         apply_real_symbol(&mut self.spectrum, scale, gradient, self.derivative.minus_laplacian());
         self.grid.synthesise(&self.spectrum, &mut self.values);
         add_scaled(force, 1.0, &self.values);
@@ -83,11 +119,26 @@ impl FlowMap {
         let modes = self.grid.modes();
         let length = at.length();
         multiply_into(&mut self.product, at.at_nodes(0), v);
+        let mut length_rate = 0.0;
+        if let Some(graded) = &self.graded {
+            let weight = graded.grading().weight();
+            let stretch = mean_of_product(weight, &self.product);
+            length_rate = length * stretch;
+            self.product.iter_mut().for_each(|product| *product -= stretch);
+            multiply(&mut self.product, weight);
+        }
         self.grid.transform(&self.product, &mut self.spectrum);
-        let length_rate = length * self.spectrum[0].re;
-        // D₋W = −|Γ|κV + mean, with D₋ = −conj(D₊).
+        if self.graded.is_none() {
+            length_rate = length * self.spectrum[0].re;
+        }
+        // D₋W = −|Γ|wκV + mean, with D₋ = −conj(D₊).
         multiply_by_conjugate(&mut self.spectrum, length, self.derivative.inverse_to_flux());
         self.grid.synthesise(&self.spectrum, &mut self.tangential);
+        if let Some(graded) = &self.graded {
+            let weight = graded.grading().at_midpoints();
+            let mean = mean_of_product(weight, &self.tangential) / graded.grading().midpoint_mean();
+            self.tangential.iter_mut().for_each(|w| *w -= mean);
+        }
         for field in 0..self.layout.fields() {
             multiply_into(&mut self.product, at.at_flux_points(field), &self.tangential);
             let rate = &mut rates[field * modes..(field + 1) * modes];
@@ -96,7 +147,12 @@ impl FlowMap {
         }
         self.grid.transform(v, &mut self.spectrum);
         let scale = 1.0 / length;
-        add_real_symbol(&mut rates[..modes], scale, &self.spectrum, self.derivative.minus_laplacian());
+        if let Some(graded) = &mut self.graded {
+            graded.apply(&self.spectrum, &mut self.image);
+            add_scaled(cast_slice_mut(&mut rates[..modes]), scale, cast_slice(&self.image));
+        } else {
+            add_real_symbol(&mut rates[..modes], scale, &self.spectrum, self.derivative.minus_laplacian());
+        }
         length_rate
     }
 
@@ -107,6 +163,12 @@ impl FlowMap {
         for ((stretch, kappa), v) in self.product.iter_mut().zip(at.at_nodes(0)).zip(v) {
             *stretch = -length * kappa * v;
         }
+        if let Some(graded) = &self.graded {
+            let weight = graded.grading().weight();
+            let mean = mean_of_product(weight, &self.product);
+            self.product.iter_mut().for_each(|stretch| *stretch -= mean);
+            multiply(&mut self.product, weight);
+        }
         self.grid.transform(&self.product, &mut self.spectrum);
         self.spectrum[0] = Complex64::default();
         for mode in 1..self.grid.modes() {
@@ -116,5 +178,9 @@ impl FlowMap {
             self.spectrum[sawtooth] = Complex64::default();
         }
         self.grid.synthesise(&self.spectrum, w);
+        if let Some(graded) = &self.graded {
+            let mean = mean_of_product(graded.grading().weight(), w);
+            w.iter_mut().for_each(|w| *w -= mean);
+        }
     }
 }

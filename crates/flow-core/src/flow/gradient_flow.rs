@@ -1,11 +1,13 @@
 //! The right-hand side −`𝓚(X)∇𝓕_h` and the implicit operator −𝓚 Hess `𝓕_h`. See `THEORY.md`, eqs. (F6) and (F7).
 
+use std::sync::Arc;
+
 use super::curve_fields::CurveFields;
 use super::density_mobility::DensityMobility;
 use super::energy_sum::{EnergySum, IntrinsicGradient};
 use super::flow_map::FlowMap;
 use super::normal_mobility::{MobilityError, NormalMobility};
-use crate::geometry::{Complex64, Layout, SpectralLayout};
+use crate::geometry::{Complex64, Grading, Layout, SpectralLayout};
 
 /// What an evaluation of the flow tells besides the rates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -113,6 +115,19 @@ impl GradientFlow {
         &mut self,
     ) -> (&mut crate::geometry::PeriodicGrid, &crate::operators::Derivative) {
         self.map.grid_and_derivative()
+    }
+
+    /// The grading of the nodes; none if they are uniform.
+    #[must_use]
+    pub fn grading(&self) -> Option<&Arc<Grading>> {
+        self.map.grading()
+    }
+
+    /// The length whose symbols stand for −`Δ_s` at the linearisation, the variation of the metric left out.
+    #[must_use]
+    pub(super) fn symbol_length(&self) -> f64 {
+        let length = self.frozen.length();
+        self.grading().map_or(length, |grading| length / grading.inverse_square_mean().sqrt())
     }
 
     /// Shape of the spectral state vector.
@@ -227,11 +242,16 @@ impl GradientFlow {
         let length = self.frozen.length();
         let modes = self.spectrum.len();
         let (turning, densities) = layout.spectra_mut(state).split_at_mut(modes);
-        let (grid, derivative) = self.map.grid_and_derivative();
-        let symbols = derivative.minus_laplacian().iter();
-        for ((v, turning), symbol) in self.spectrum.iter_mut().zip(turning).zip(symbols) {
-            *v = if *symbol > 0.0 { *turning * (length / symbol) } else { Complex64::default() };
+        if let Some(graded) = self.map.graded_laplacian() {
+            self.spectrum.iter_mut().zip(turning).for_each(|(v, turning)| *v = *turning * length);
+            graded.solve(&mut self.spectrum);
+        } else {
+            let symbols = self.map.grid_and_derivative().1.minus_laplacian().iter();
+            for ((v, turning), symbol) in self.spectrum.iter_mut().zip(turning).zip(symbols) {
+                *v = if *symbol > 0.0 { *turning * (length / symbol) } else { Complex64::default() };
+            }
         }
+        let (grid, _) = self.map.grid_and_derivative();
         grid.synthesise(&self.spectrum, &mut self.velocity);
         self.map.rates(&self.frozen, &self.velocity, &mut self.gradient.spectra);
         self.map.grid_and_derivative().0.make_real(&mut self.gradient.spectra);
@@ -258,9 +278,7 @@ impl GradientFlow {
 
     fn dissipation(&mut self) -> f64 {
         let length = self.current.length();
-        let nodes = self.layout.nodes() as f64;
-        let normal: f64 = self.force.iter().zip(&self.velocity).map(|(f, v)| f * v).sum();
-        let mut sum = length * normal / nodes;
+        let mut sum = length * self.current.mean_of_product(&self.force, &self.velocity);
         let modes = self.spectrum.len();
         for (density, mobility) in self.density_mobilities.iter_mut().enumerate() {
             let mu = &self.gradient.spectra[(density + 1) * modes..(density + 2) * modes];

@@ -5,10 +5,12 @@ mod density_mobility;
 mod energy_sum;
 mod excess_density;
 mod flow_map;
+mod graded_energy;
 mod gradient_flow;
 mod nodal;
 mod normal_mobility;
 mod preconditioner;
+mod regrade;
 mod shape_energy;
 mod slope_energy;
 
@@ -23,3 +25,4 @@ pub use normal_mobility::{
     NormalMobility, SurfaceDiffusion,
 };
 pub use preconditioner::{LinearSolver, Preconditioner};
+pub use regrade::{Regraded, regrade};

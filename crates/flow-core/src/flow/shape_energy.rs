@@ -9,7 +9,7 @@
 use super::curve_fields::CurveFields;
 use super::energy_sum::IntrinsicGradient;
 use crate::energies::{EnergyTerm, Order, ShapeFields};
-use crate::geometry::vectors::{mean, mean_of_product};
+use crate::geometry::vectors::{mean, mean_of_product, scale, scale_into};
 use crate::geometry::{Complex64, Embedding, Layout, PeriodicGrid, SpectralLayout};
 use crate::operators::Derivative;
 
@@ -73,7 +73,10 @@ impl ShapeEnergy {
     #[must_use]
     pub fn new(layout: Layout, grid: &PeriodicGrid, derivative: &Derivative) -> Self {
         let nodes = layout.nodes();
-        let shape = ShapeFields::new(nodes);
+        let mut shape = ShapeFields::new(nodes);
+        if let Some(grading) = derivative.grading() {
+            shape.weight = grading.weight().to_vec();
+        }
         let sawtooth = grid.sawtooth_mode().map(|mode| Sawtooth {
             mode,
             square: 1.0 / derivative.minus_laplacian()[mode],
@@ -89,7 +92,7 @@ impl ShapeEnergy {
         Self {
             layout: SpectralLayout::new(layout),
             grid: grid.clone(),
-            embedding: Embedding::new(nodes),
+            embedding: Embedding::graded(nodes, derivative.grading().cloned()),
             sawtooth,
             dual: shape.clone(),
             motion: shape.clone(),
@@ -111,22 +114,24 @@ impl ShapeEnergy {
         term.add_shape_energy(&self.shape, Order::Gradient, &mut self.dual)
     }
 
-    /// Positions and tangents of a state; mean angle and mean position are zero, on which no energy depends.
+    /// Positions and tangents of a state; mean angle and mean position of the nodes are zero, on which no energy depends.
     fn embed(&mut self, at: &CurveFields) {
         let length = at.length();
-        self.spectrum.iter_mut().zip(at.spectrum(0)).for_each(|(k, kappa)| *k = kappa * length);
+        self.spectrum.iter_mut().zip(at.weighted_spectrum(0)).for_each(|(k, kappa)| *k = kappa * length);
         self.embedding.set_tangent_spectrum(&self.spectrum, length, 0.0);
-        self.embedding.set_position(length, [0.0; 2]);
         let mut shortening = 1.0;
         if let Some(sawtooth) = &mut self.sawtooth {
             sawtooth.turning = self.spectrum[sawtooth.mode].re;
             shortening = sawtooth.shortening();
         }
-        let (position, tangent) = (self.embedding.position(), self.embedding.tangent());
+        let tangent = self.embedding.tangent();
         for axis in 0..2 {
-            let shorten = |(out, value): (&mut f64, &f64)| *out = shortening * value;
-            self.shape.tangent[axis].iter_mut().zip(tangent[axis]).for_each(shorten);
-            self.shape.position[axis].iter_mut().zip(position[axis]).for_each(shorten);
+            scale_into(&mut self.shape.tangent[axis], shortening, tangent[axis]);
+        }
+        let position = self.embedding.shape_spectra();
+        for axis in 0..2 {
+            self.grid.synthesise(position[axis], &mut self.shape.position[axis]);
+            scale(&mut self.shape.position[axis], shortening * length);
         }
         self.shape.length = length;
     }

@@ -1,10 +1,10 @@
 //! The part of the energy that depends on slopes, L⟨e′(φ, ∇_sφ)⟩ at the flux points, with its exact
-//! derivatives: p += Mᵀe′_φ + D₊ᵀe′_σ/L. Built only if a term has it. See `THEORY.md`, eq. (D6).
+//! derivatives: p += Mᵀe′_φ + D₊ᵀe′_σ/L. On graded nodes L⟨we′(φ, D₊φ/(Lw))⟩, and 1/w is left to the sum. Built only if a term has it. See `THEORY.md`, eq. (D6).
 
 use super::curve_fields::CurveFields;
 use super::energy_sum::IntrinsicGradient;
 use crate::energies::{EnergyTerm, Fields, Jet, Order};
-use crate::geometry::vectors::{mean, mean_of_product};
+use crate::geometry::vectors::{self, mean, mean_of_product, mean_of_triple_product};
 use crate::geometry::{Complex64, Layout, PeriodicGrid};
 use crate::operators::Derivative;
 
@@ -52,7 +52,23 @@ impl SlopeEnergy {
         self.fill(at);
         self.jet.clear(Order::Gradient);
         term.add_slope_density(Fields::new(self.layout.nodes(), &self.fields), &mut self.jet);
-        at.length() * mean(self.jet.value())
+        at.length() * self.mean_density()
+    }
+
+    /// ⟨we′⟩.
+    fn mean_density(&self) -> f64 {
+        let value = self.jet.value();
+        self.weight().map_or_else(|| mean(value), |weight| mean_of_product(weight, value))
+    }
+
+    /// ⟨wab⟩.
+    fn mean_of_product(&self, a: &[f64], b: &[f64]) -> f64 {
+        self.weight().map_or_else(|| mean_of_product(a, b), |weight| mean_of_triple_product(weight, a, b))
+    }
+
+    /// w at the flux points, unless it is 1.
+    fn weight(&self) -> Option<&[f64]> {
+        self.derivative.grading().map(|grading| grading.at_midpoints())
     }
 
     fn fill(&mut self, at: &CurveFields) {
@@ -66,7 +82,10 @@ impl SlopeEnergy {
                 *slope = phi * symbol * scale;
             }
             let slopes = self.layout.field(fields + field);
-            self.grid.synthesise(&self.spectrum, &mut self.fields[slopes]);
+            self.grid.synthesise(&self.spectrum, &mut self.fields[slopes.clone()]);
+            if let Some(grading) = self.derivative.grading() {
+                vectors::multiply(&mut self.fields[slopes], grading.inverse_at_midpoints());
+            }
         }
     }
 
@@ -84,12 +103,13 @@ impl SlopeEnergy {
         for term in terms.iter_mut().filter(|term| term.has_slope_density()) {
             term.add_slope_density(Fields::new(nodes, &self.fields), &mut self.jet);
         }
-        let density = mean(self.jet.value());
+        let density = self.mean_density();
         let mut by_length = density;
         for field in 0..fields {
-            let slope = &self.fields[self.layout.field(fields + field)];
-            by_length -= mean_of_product(self.jet.first(fields + field), slope);
+            let slope = self.layout.field(fields + field);
+            by_length -= self.mean_of_product(self.jet.first(fields + field), &self.fields[slope]);
             self.product.copy_from_slice(self.jet.first(field));
+            self.weigh_product();
             self.add_interpolated(field, gradient);
             self.product.copy_from_slice(self.jet.first(fields + field));
             self.add_divergence(field, 1.0 / at.length(), gradient);
@@ -127,6 +147,9 @@ impl SlopeEnergy {
             self.grid.synthesise(&self.spectrum, &mut self.motion[slopes.clone()]);
             let by_slope = &self.frozen_by_slope[self.layout.field(field)];
             by_length -= mean_of_product(by_slope, &self.motion[slopes.clone()]) / length;
+            if let Some(grading) = self.derivative.grading() {
+                vectors::multiply(&mut self.motion[slopes.clone()], grading.inverse_at_midpoints());
+            }
             let frozen = &self.frozen_slopes[self.layout.field(field)];
             for (motion, slope) in self.motion[slopes].iter_mut().zip(frozen) {
                 *motion = (*motion - slope * length_motion) / length;
@@ -143,11 +166,13 @@ impl SlopeEnergy {
                 }
             }
             if variable < fields {
+                self.weigh_product();
                 self.add_interpolated(variable, out);
                 continue;
             }
             let field = variable - fields;
-            by_length -= mean_of_product(&self.product, &self.frozen_slopes[self.layout.field(field)]);
+            let slope = &self.frozen_slopes[self.layout.field(field)];
+            by_length -= self.mean_of_product(&self.product, slope);
             let by_slope = &self.frozen_by_slope[self.layout.field(field)];
             for (product, by_slope) in self.product.iter_mut().zip(by_slope) {
                 *product -= by_slope * length_motion / length;
@@ -155,6 +180,12 @@ impl SlopeEnergy {
             self.add_divergence(field, 1.0 / length, out);
         }
         by_length
+    }
+
+    fn weigh_product(&mut self) {
+        if let Some(grading) = self.derivative.grading() {
+            vectors::multiply(&mut self.product, grading.at_midpoints());
+        }
     }
 
     /// p += Mᵀ `product`.

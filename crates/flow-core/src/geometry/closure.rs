@@ -1,7 +1,10 @@
 //! Projection onto closed curves: κ += aγ₁ + bγ₂ + c, the directions in which closure can fail.
 //! See `THEORY.md`, eq. (G5).
 
+use std::sync::Arc;
+
 use super::embedding::Embedding;
+use super::grading::Grading;
 use super::grid::Complex64;
 
 /// The curve could not be closed.
@@ -35,10 +38,16 @@ impl Closure {
     /// A projection on a grid of `nodes` nodes.
     #[must_use]
     pub fn new(nodes: usize) -> Self {
-        Self { embedding: Embedding::new(nodes) }
+        Self::graded(nodes, None)
     }
 
-    /// Corrects the spectrum `turning` of K = κ|Γ| in place and returns the gap before the correction.
+    /// A projection on nodes that may be graded.
+    #[must_use]
+    pub fn graded(nodes: usize, grading: Option<Arc<Grading>>) -> Self {
+        Self { embedding: Embedding::graded(nodes, grading) }
+    }
+
+    /// Corrects the spectrum `turning` of K = κg in place and returns the gap before the correction.
     ///
     /// The total turning is reset to 2π `turning_number`. The tangents of the closed curve (to 1e-8), for the
     /// mean tangent angle `angle`, are in [`Closure::embedding`] afterwards.

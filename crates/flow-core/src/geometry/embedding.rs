@@ -1,16 +1,19 @@
 //! From curvature and length to tangent angle and position: ∂_sθ = K, ∂_sγ = |Γ| τ(θ).
 //! See `THEORY.md`, eqs. (G3) and (G4).
 
+use std::sync::Arc;
+
+use super::grading::Grading;
 use super::grid::{Complex64, PeriodicGrid};
 use super::unit_vectors::unit_vectors;
-use super::vectors::sum;
+use super::vectors::{mean_of_product, multiply, sum};
 
 /// Where a curve lies: what curvature and length leave open.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Placement {
-    /// Mean over the nodes of θ − 2πωs, the tangent angle less its turning.
+    /// Mean over the curve of θ − 2πωx, the tangent angle less its turning; x is the fraction of the arc length.
     pub angle: f64,
-    /// Mean position of the nodes.
+    /// Mean position of the curve.
     pub centre: [f64; 2],
 }
 
@@ -18,6 +21,7 @@ pub struct Placement {
 #[derive(Clone, Debug)]
 pub struct Embedding {
     grid: PeriodicGrid,
+    grading: Option<Arc<Grading>>,
     spectrum: Vec<Complex64>,
     theta: Vec<f64>,
     tangent: [Vec<f64>; 2],
@@ -27,15 +31,22 @@ pub struct Embedding {
 }
 
 impl Embedding {
-    /// An embedding on a grid.
+    /// An embedding of uniform nodes.
     #[must_use]
     pub fn new(nodes: usize) -> Self {
+        Self::graded(nodes, None)
+    }
+
+    /// An embedding of nodes that may be graded.
+    #[must_use]
+    pub fn graded(nodes: usize, grading: Option<Arc<Grading>>) -> Self {
         let grid = PeriodicGrid::new(nodes);
         let field = vec![0.0; nodes];
         Self {
             spectrum: vec![Complex64::default(); grid.modes()],
             shape: [vec![Complex64::default(); grid.modes()], vec![Complex64::default(); grid.modes()]],
             grid,
+            grading,
             theta: field.clone(),
             tangent: [field.clone(), field.clone()],
             position: [field.clone(), field],
@@ -58,14 +69,25 @@ impl Embedding {
 
     fn tangent_of_spectrum(&mut self, length: f64, angle: f64) {
         let nodes = self.grid.nodes() as f64;
-        let turning_per_node = self.spectrum[0].re / nodes;
+        let turning = self.spectrum[0].re;
+        let turning_per_node = turning / nodes;
         self.grid.integrate(&mut self.spectrum);
         self.grid.synthesise(&self.spectrum, &mut self.theta);
+        let angle = match &self.grading {
+            None => angle,
+            Some(grading) => {
+                angle + turning * grading.mean_shift() - mean_of_product(grading.weight(), &self.theta)
+            }
+        };
         for (i, theta) in self.theta.iter_mut().enumerate() {
             *theta += angle + turning_per_node * i as f64;
         }
         let [cosine, sine] = &mut self.tangent;
         unit_vectors(&self.theta, cosine, sine);
+        if let Some(grading) = &self.grading {
+            multiply(cosine, grading.weight());
+            multiply(sine, grading.weight());
+        }
         for axis in 0..2 {
             self.gap[axis] = sum(&self.tangent[axis]) * length / nodes;
         }
@@ -85,8 +107,14 @@ impl Embedding {
         self.shape_spectra();
         for axis in 0..2 {
             self.grid.synthesise(&self.shape[axis], &mut self.position[axis]);
+            let centre = match &self.grading {
+                None => centre[axis],
+                Some(grading) => {
+                    centre[axis] - length * mean_of_product(grading.weight(), &self.position[axis])
+                }
+            };
             for x in &mut self.position[axis] {
-                *x = centre[axis] + length * *x;
+                *x = centre + length * *x;
             }
         }
     }
@@ -97,7 +125,7 @@ impl Embedding {
         &self.theta
     }
 
-    /// Unit tangent τ = (cos θ, sin θ) at the nodes, by component.
+    /// Tangent per length, wτ with τ = (cos θ, sin θ), at the nodes, by component: ∂_sγ = |Γ|wτ, w = 1 on uniform nodes.
     #[must_use]
     pub fn tangent(&self) -> [&[f64]; 2] {
         [&self.tangent[0], &self.tangent[1]]

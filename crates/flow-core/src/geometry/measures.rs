@@ -1,7 +1,7 @@
 //! Integrals over a curve.
 
-/// Signed enclosed area ½∮(x dy − y dx) of positions with tangents, positive counter-clockwise.
-/// Trapezoidal rule with dγ = |Γ|τ ds: `THEORY.md`, eq. (G6).
+/// Signed enclosed area ½∮(x dy − y dx) of positions with tangents per length, positive counter-clockwise.
+/// Trapezoidal rule with dγ = |Γ|wτ ds: `THEORY.md`, eq. (G6).
 #[must_use]
 pub fn enclosed_area(position: [&[f64]; 2], tangent: [&[f64]; 2], length: f64) -> f64 {
     let nodes = position[0].len();

@@ -42,6 +42,23 @@ pub fn mean(values: &[f64]) -> f64 {
     sum(values) / values.len() as f64
 }
 
+/// Mean of the products of three.
+#[must_use]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn mean_of_triple_product(a: &[f64], b: &[f64], c: &[f64]) -> f64 {
+    let mut lanes = [0.0; LANES];
+    let (a_chunks, a_rest) = a.as_chunks::<LANES>();
+    let (b_chunks, b_rest) = b.as_chunks::<LANES>();
+    let (c_chunks, c_rest) = c.as_chunks::<LANES>();
+    for ((a, b), c) in a_chunks.iter().zip(b_chunks).zip(c_chunks) {
+        for k in 0..LANES {
+            lanes[k] += a[k] * b[k] * c[k];
+        }
+    }
+    let rest = a_rest.iter().zip(b_rest).zip(c_rest);
+    (rest.map(|((a, b), c)| a * b * c).sum::<f64>() + total(lanes)) / a.len() as f64
+}
+
 /// Mean of the products.
 #[must_use]
 pub fn mean_of_product(a: &[f64], b: &[f64]) -> f64 {

@@ -3,10 +3,15 @@
 //! A family has a derivative from the nodes to the flux points, D₊, its negative transpose D₋ from the flux
 //! points back to the nodes, an interpolation M to the flux points and the second derivative D₋D₊. Transposes
 //! are conjugate symbols, so D₊ᵀ = −D₋ holds to rounding by construction. See `THEORY.md`, section 2.
+//!
+//! On graded nodes the symbols are those per unit parameter, and `Δ_s` = D₋(1/w)D₊/(|Γ|²w) with the grading w that is
+//! kept here. The flux points are midpoints then for every family.
+
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Complex64, PeriodicGrid};
+use crate::geometry::{Complex64, Grading, PeriodicGrid};
 
 /// Family of discrete derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -63,6 +68,11 @@ impl DerivativeFamily {
         }
     }
 
+    /// Coefficients of the staggered difference, that of order 8 for the Fourier family.
+    pub(super) fn differences(self) -> &'static [f64] {
+        self.stencil().unwrap_or(&CENTRAL_8).difference
+    }
+
     fn stencil(self) -> Option<&'static Stencil> {
         match self {
             Self::Fourier => None,
@@ -82,20 +92,35 @@ pub struct Derivative {
     inverse_to_flux: Vec<Complex64>,
     interpolation: Option<Vec<Complex64>>,
     minus_laplacian: Vec<f64>,
+    grading: Option<Arc<Grading>>,
 }
 
 impl Derivative {
-    /// Builds the symbols of `family` for `grid`.
+    /// Builds the symbols of `family` for `grid` with uniform nodes.
     #[must_use]
     pub fn new(family: DerivativeFamily, grid: &PeriodicGrid) -> Self {
-        let to_flux: Vec<_> = (0..grid.modes()).map(|mode| Self::flux_symbol(family, grid, mode)).collect();
+        Self::graded(family, grid, None)
+    }
+
+    /// Builds the symbols of `family` for `grid`, whose nodes may be graded.
+    ///
+    /// The Fourier derivative to graded nodes goes to the midpoints and sees the sawtooth: at the nodes D₊ᵀ(1/w)D₊ would
+    /// lose it.
+    #[must_use]
+    pub fn graded(family: DerivativeFamily, grid: &PeriodicGrid, grading: Option<Arc<Grading>>) -> Self {
+        let midpoints = grading.is_some();
+        let to_flux: Vec<_> =
+            (0..grid.modes()).map(|mode| Self::flux_symbol(family, midpoints, grid, mode)).collect();
         let inverse_to_flux = to_flux
             .iter()
             .map(|d| if d.norm_sqr() == 0.0 { Complex64::default() } else { 1.0 / d })
             .collect();
-        let interpolation = family.stencil().map(|stencil| {
-            (0..grid.modes()).map(|mode| Self::mean_symbol(stencil, grid, mode)).collect::<Vec<_>>()
-        });
+        let symbols = |symbol: &dyn Fn(usize) -> Complex64| (0..grid.modes()).map(symbol).collect::<Vec<_>>();
+        let interpolation = match family.stencil() {
+            Some(stencil) => Some(symbols(&|mode| Self::mean_symbol(stencil, grid, mode))),
+            None if midpoints => Some(symbols(&|mode| Self::half_step(grid, mode))),
+            None => None,
+        };
         // The nodal Fourier derivative loses the sawtooth; the second derivative must not.
         let minus_laplacian = (0..grid.modes())
             .map(|mode| match family {
@@ -103,11 +128,23 @@ impl Derivative {
                 _ => to_flux[mode].norm_sqr(),
             })
             .collect();
-        Self { family, to_flux, inverse_to_flux, interpolation, minus_laplacian }
+        Self { family, to_flux, inverse_to_flux, interpolation, minus_laplacian, grading }
     }
 
-    fn flux_symbol(family: DerivativeFamily, grid: &PeriodicGrid, mode: usize) -> Complex64 {
+    /// Shift to the midpoints, where the sawtooth vanishes.
+    fn half_step(grid: &PeriodicGrid, mode: usize) -> Complex64 {
+        if Some(mode) == grid.sawtooth_mode() {
+            return Complex64::default();
+        }
+        Complex64::cis(0.5 * grid.wave_number(mode) / grid.nodes() as f64)
+    }
+
+    fn flux_symbol(family: DerivativeFamily, midpoints: bool, grid: &PeriodicGrid, mode: usize) -> Complex64 {
         match family.stencil() {
+            None if midpoints && Some(mode) == grid.sawtooth_mode() => {
+                Complex64::new(-grid.wave_number(mode), 0.0)
+            }
+            None if midpoints => Complex64::new(0.0, grid.wave_number(mode)) * Self::half_step(grid, mode),
             None if Some(mode) == grid.sawtooth_mode() => Complex64::default(),
             None => Complex64::new(0.0, grid.wave_number(mode)),
             Some(stencil) => {
@@ -134,6 +171,12 @@ impl Derivative {
     #[must_use]
     pub fn family(&self) -> DerivativeFamily {
         self.family
+    }
+
+    /// The grading of the nodes; none if they are uniform.
+    #[must_use]
+    pub fn grading(&self) -> Option<&Arc<Grading>> {
+        self.grading.as_ref()
     }
 
     /// Symbol of D₊, from the nodes to the flux points.

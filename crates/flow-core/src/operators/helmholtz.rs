@@ -27,11 +27,11 @@ pub enum HelmholtzError {
 
 /// Nodes from which one step of refinement is taken: the rounding of an assembled band, 1e-16 n²/4π² relative to
 /// κ², is then above 1e-12.
-const REFINED_FROM: usize = 512;
+pub(super) const REFINED_FROM: usize = 512;
 /// Half-width of the widest band, that of the staggered differences of order 8.
 const WIDEST: usize = 7;
 /// |Γ|∫κ² dσ below which H is taken for singular; 4π² is the least of a closed curve.
-const LEAST_CURVATURE: f64 = 1.0;
+pub(super) const LEAST_CURVATURE: f64 = 1.0;
 /// The root of p for staggered central differences: D₊ = δ(1 + x/24 + …), cut at the order of the family.
 const STAGGERED: [f64; 4] = [1.0, 1.0 / 24.0, 3.0 / 640.0, 5.0 / 7168.0];
 /// p and M of the compact difference of order 8, for the Fourier family; positive for all 0 ≤ x ≤ 4.

@@ -2,9 +2,13 @@
 
 mod cyclic_banded;
 mod derivative;
+mod graded_helmholtz;
+mod graded_laplacian;
 mod helmholtz;
 mod small_lu;
 
 pub use cyclic_banded::{CyclicBanded, FactorisationError};
 pub use derivative::{Derivative, DerivativeFamily};
+pub use graded_helmholtz::{CurveHelmholtz, GradedHelmholtz};
+pub use graded_laplacian::GradedLaplacian;
 pub use helmholtz::{Helmholtz, HelmholtzError};

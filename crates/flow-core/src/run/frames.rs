@@ -24,6 +24,9 @@ pub fn frame(
     let layout = membrane.layout();
     let rate = membrane.flow().spectral_dissipation(y);
     let normal_velocity = membrane.flow().normal_velocity().to_vec();
+    let at = membrane.flow().current();
+    let pointwise: Vec<Vec<f64>> = (0..layout.fields()).map(|field| at.at_nodes(field).to_vec()).collect();
+    let weight = at.weight().map_or_else(|| vec![1.0; layout.nodes()], <[f64]>::to_vec);
     let energy_terms = membrane.flow().current_energies_by_term();
     let mut nodal = vec![0.0; layout.len()];
     membrane.flow().decode(y, &mut nodal);
@@ -48,11 +51,11 @@ pub fn frame(
         mass: (0..layout.densities()).map(|density| state.mass(density)).collect(),
         closure_defect,
         crossings: crossings.count(position) as f64,
-        curvature: state.pointwise(0),
-        metric: vec![length; layout.nodes()],
+        curvature: pointwise[0].clone(),
+        metric: weight.iter().map(|weight| length * weight).collect(),
         position: position[0].iter().zip(position[1]).map(|(x, y)| [*x, *y]).collect(),
         normal_velocity,
-        density: (1..layout.fields()).map(|field| state.pointwise(field)).collect(),
+        density: pointwise[1..].to_vec(),
     }
 }
 

@@ -45,8 +45,8 @@ impl Membrane {
             automatic: solver == LinearSolver::Auto && Preconditioner::banded_exists(&flow),
             mean_iterations: 0.0,
             invariants: Invariants::new(&mut flow),
+            closure: Closure::graded(nodes, flow.grading().cloned()),
             flow,
-            closure: Closure::new(nodes),
             crossings: Crossings::new(nodes),
             turning_number,
             tangential: vec![0.0; nodes],
@@ -103,12 +103,12 @@ impl Membrane {
     fn integral_rates(&mut self, rate: Rate) -> [f64; INTEGRALS] {
         self.flow.tangential_velocity(&mut self.tangential);
         let nodes = self.flow.layout().nodes() as f64;
-        let curvature = self.flow.current().at_nodes(0);
+        let (curvature, weight) = (self.flow.current().at_nodes(0), self.flow.current().weight());
         let [tx, ty] = self.closure.embedding().tangent();
         let (mut angle, mut x, mut y) = (0.0, 0.0, 0.0);
         for (i, (v, w)) in self.flow.normal_velocity().iter().zip(&self.tangential).enumerate() {
-            angle += curvature[i] * w;
-            // n = (τ_y, −τ_x).
+            angle += weight.map_or(1.0, |weight| weight[i]) * curvature[i] * w;
+            // n = (τ_y, −τ_x); the tangents hold the weights.
             x += v * ty[i] + w * tx[i];
             y += w * ty[i] - v * tx[i];
         }

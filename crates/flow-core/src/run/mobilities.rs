@@ -2,7 +2,6 @@
 
 use super::scene::{self, Formula, Scene};
 use super::setup_error::SetupError;
-use crate::expression::Program;
 use crate::flow::{
     AreaPreserving, Carried, DensityMobility, Diffusion, Exchange, Identity, Incompressible,
     IncompressibleAreaPreserving, NormalMobility, SurfaceDiffusion, WeightedDiffusion,
@@ -16,13 +15,13 @@ pub fn normal_mobility(
     grid: &PeriodicGrid,
     derivative: &Derivative,
 ) -> Box<dyn NormalMobility> {
-    let (family, nodes) = (derivative.family(), grid.nodes());
+    let nodes = grid.nodes();
     match mobility {
         scene::NormalMobility::Identity => Box::new(Identity),
-        scene::NormalMobility::Incompressible => Box::new(Incompressible::new(family, nodes)),
+        scene::NormalMobility::Incompressible => Box::new(Incompressible::new(derivative, nodes)),
         scene::NormalMobility::AreaPreserving => Box::new(AreaPreserving),
         scene::NormalMobility::IncompressibleAreaPreserving => {
-            Box::new(IncompressibleAreaPreserving::new(family, nodes))
+            Box::new(IncompressibleAreaPreserving::new(derivative, nodes))
         }
         scene::NormalMobility::SurfaceDiffusion => Box::new(SurfaceDiffusion::new(grid, derivative)),
     }
@@ -46,21 +45,23 @@ fn density_mobility(
     derivative: &Derivative,
 ) -> Result<Box<dyn DensityMobility>, SetupError> {
     Ok(match (density.mobility, &density.weight) {
-        (scene::DensityMobility::Diffusion, None) => Box::new(Diffusion::new(derivative)),
+        (scene::DensityMobility::Diffusion, None) => Box::new(Diffusion::new(grid, derivative)),
         (scene::DensityMobility::Diffusion, Some(weight)) => {
-            let points = WeightedDiffusion::flux_points(grid, derivative);
+            // A weight is fixed on the fractions of the arc length, which the gauges have in common.
+            let points = match derivative.grading() {
+                None => WeightedDiffusion::flux_points(grid, derivative),
+                Some(grading) => grading.midpoint_fractions(),
+            };
             let values = positive_values(&density.name, weight, &points)?;
             Box::new(WeightedDiffusion::new(grid, derivative, values))
         }
-        (scene::DensityMobility::Exchange, _) => Box::new(Exchange),
+        (scene::DensityMobility::Exchange, _) => Box::new(Exchange::new(grid, derivative)),
         (scene::DensityMobility::Carried, _) => Box::new(Carried),
     })
 }
 
 fn positive_values(density: &str, weight: &Formula, points: &[f64]) -> Result<Vec<f64>, SetupError> {
-    let program = Program::compile(&[weight.expression()]);
-    let (mut values, mut scratch) = (vec![0.0; points.len()], vec![0.0; program.scratch_len()]);
-    program.evaluate(&[points], &mut [&mut values], &mut scratch);
+    let values = weight.values(points);
     match values.iter().position(|value| !(*value > 0.0 && value.is_finite())) {
         None => Ok(values),
         Some(at) => Err(SetupError::WeightNotPositive {

@@ -3,6 +3,7 @@
 mod energy_terms;
 mod equilibrium;
 mod frames;
+mod grading;
 mod invariants;
 mod membrane;
 mod mobilities;

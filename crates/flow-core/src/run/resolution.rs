@@ -1,9 +1,10 @@
 //! The automatic number of nodes: enough for the initial curve and for the fronts that a scene names.
 
+use super::grading::{grading, resample};
 use super::scene::{Length, LengthTarget, Nodes, Scene};
 use super::setup_error::SetupError;
-use crate::geometry::Embedding;
 use crate::geometry::shapes::Shape;
+use crate::geometry::{Embedding, GradingError};
 
 /// Fewest nodes that the automatic choice takes.
 const FEWEST: usize = 128;
@@ -25,7 +26,7 @@ pub fn nodes(scene: &Scene, shape: &Shape, initial_length: f64) -> Result<usize,
         Nodes::Auto => {
             let for_fronts = fast_size(fronts(scene, initial_length))?;
             let mut nodes = for_fronts.max(FEWEST);
-            while gap(shape, nodes)? > GAP_PER_TOLERANCE * scene.accuracy.tolerance {
+            while gap(scene, shape, nodes)? > GAP_PER_TOLERANCE * scene.accuracy.tolerance {
                 nodes = fast_size(1.3 * nodes as f64)?;
             }
             Ok(nodes)
@@ -46,10 +47,17 @@ fn fronts(scene: &Scene, initial_length: f64) -> f64 {
 }
 
 /// Gap of the curve sampled at `nodes` nodes, relative to its length.
-fn gap(shape: &Shape, nodes: usize) -> Result<f64, SetupError> {
-    let curve = shape.resample(nodes)?;
-    let turning: Vec<f64> = curve.curvature.iter().map(|kappa| kappa * curve.length).collect();
-    let mut embedding = Embedding::new(nodes);
+fn gap(scene: &Scene, shape: &Shape, nodes: usize) -> Result<f64, SetupError> {
+    let grading = match grading(scene, nodes) {
+        Err(SetupError::Grading(GradingError::NotResolved { .. })) => return Ok(f64::INFINITY),
+        other => other?,
+    };
+    let curve = resample(shape, nodes, grading.as_deref())?;
+    let mut turning: Vec<f64> = curve.curvature.iter().map(|kappa| kappa * curve.length).collect();
+    if let Some(grading) = &grading {
+        grading.weigh(&mut turning);
+    }
+    let mut embedding = Embedding::graded(nodes, grading);
     embedding.set_tangent(&turning, curve.length, curve.angle);
     let [x, y] = embedding.gap();
     Ok(x.hypot(y) / curve.length)

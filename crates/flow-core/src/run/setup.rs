@@ -1,15 +1,19 @@
 //! From a checked scene to a flow and its initial state.
 
+use std::sync::Arc;
+
 use super::energy_terms::{Initial, energy_terms};
+use super::grading::{grading, resample};
 use super::membrane::Membrane;
 use super::mobilities::{density_mobilities, normal_mobility};
 use super::resolution;
 use super::scene::{self, Scene};
 use super::setup_error::SetupError;
-use crate::expression::Program;
 use crate::flow::{EnergySum, FlowMap, GradientFlow, LinearSolver};
 use crate::geometry::shapes::{Resampled, Shape};
-use crate::geometry::{Closure, Embedding, Layout, PeriodicGrid, Placement, SpectralLayout, enclosed_area};
+use crate::geometry::{
+    Closure, Embedding, Grading, Layout, PeriodicGrid, Placement, SpectralLayout, enclosed_area,
+};
 use crate::operators::{Derivative, DerivativeFamily};
 
 /// A flow with its initial state.
@@ -37,14 +41,14 @@ impl Setup {
         let shape = shape(&scene.curve.shape);
         let initial_length = shape.length()?;
         let nodes = resolution::nodes(scene, &shape, initial_length)?;
-        let curve = shape.resample(nodes)?;
+        let grading = grading(scene, nodes)?;
+        let curve = resample(&shape, nodes, grading.as_deref())?;
         check_turning(scene, &curve)?;
         let layout = Layout::new(nodes, scene.density.len());
-        let mut closure = Closure::new(nodes);
-        let (state, closure_defect) = initial_state(scene, &curve, layout, &mut closure)?;
+        let (state, closure_defect) = initial_state(scene, &curve, layout, grading.as_ref())?;
         let grid = PeriodicGrid::new(nodes);
-        let derivative = Derivative::new(family(scene.accuracy.derivative), &grid);
-        let area = area(&state, layout, &curve);
+        let derivative = Derivative::graded(family(scene.accuracy.derivative), &grid, grading.clone());
+        let area = area(&state, layout, &curve, grading);
         let initial = Initial { length: initial_length, area };
         let terms = energy_terms(scene, initial, nodes)?;
         let energy = EnergySum::new(terms, layout, &grid, &derivative);
@@ -71,32 +75,38 @@ fn initial_state(
     scene: &Scene,
     curve: &Resampled,
     layout: Layout,
-    closure: &mut Closure,
+    grading: Option<&Arc<Grading>>,
 ) -> Result<(Vec<f64>, f64), SetupError> {
     let nodes = layout.nodes();
-    let parameter: Vec<f64> = (0..nodes).map(|i| i as f64 / nodes as f64).collect();
+    let uniform = || (0..nodes).map(|i| i as f64 / nodes as f64).collect();
+    let fractions: Vec<f64> = grading.map_or_else(uniform, |grading| grading.fractions());
     let mut densities = Vec::new();
     for density in &scene.density {
-        let mut values = vec![0.0; nodes];
-        let program = Program::compile(&[density.initial.expression()]);
-        let mut scratch = vec![0.0; program.scratch_len()];
-        program.evaluate(&[&parameter], &mut [&mut values], &mut scratch);
+        let values = density.initial.values(&fractions);
         if let Some(node) = values.iter().position(|value| !value.is_finite()) {
             return Err(SetupError::DensityNotFinite {
                 density: density.name.clone(),
                 node,
-                parameter: parameter[node],
+                parameter: fractions[node],
                 value: values[node],
             });
         }
         densities.push(values);
     }
-    let nodal = layout.assemble(&curve.curvature, &densities, curve.length);
+    let mut nodal = layout.assemble(&curve.curvature, &densities, curve.length);
+    if let Some(grading) = grading {
+        grading.weigh(&mut nodal[..layout.length_index()]);
+    }
     let spectral = SpectralLayout::new(layout);
     let mut state = vec![0.0; spectral.len()];
     spectral.encode(&mut PeriodicGrid::new(nodes), &nodal, &mut state);
     let turning = &mut spectral.spectra_mut(&mut state)[..spectral.modes()];
-    let gap = closure.project(turning, curve.length, curve.turning_number, curve.angle);
+    let gap = Closure::graded(nodes, grading.cloned()).project(
+        turning,
+        curve.length,
+        curve.turning_number,
+        curve.angle,
+    );
     match gap {
         Ok(gap) if gap <= LARGEST_GAP * curve.length => Ok((state, gap)),
         _ => {
@@ -107,9 +117,9 @@ fn initial_state(
 }
 
 /// Area enclosed by the closed initial curve, as the energies measure it.
-fn area(state: &[f64], layout: Layout, curve: &Resampled) -> f64 {
+fn area(state: &[f64], layout: Layout, curve: &Resampled, grading: Option<Arc<Grading>>) -> f64 {
     let spectral = SpectralLayout::new(layout);
-    let mut embedding = Embedding::new(layout.nodes());
+    let mut embedding = Embedding::graded(layout.nodes(), grading);
     embedding.set_tangent_spectrum(&spectral.spectra(state)[..spectral.modes()], curve.length, 0.0);
     embedding.set_position(curve.length, [0.0; 2]);
     enclosed_area(embedding.position(), embedding.tangent(), curve.length)

@@ -1,6 +1,7 @@
 //! Why a scene that reads well makes no initial state.
 
 use crate::expression::ExpressionError;
+use crate::geometry::GradingError;
 use crate::geometry::shapes::ShapeError;
 
 /// The curve, the densities or the energy of a scene cannot be used together.
@@ -41,6 +42,9 @@ pub enum SetupError {
          [0, 1); add a constant, for example 0.1"
     )]
     WeightNotPositive { density: String, parameter: f64, value: f64 },
+    /// The grading is no metric on the nodes.
+    #[error("`flow.grading`: {0}")]
+    Grading(GradingError),
     /// A derivative of an expression is too large.
     #[error("`{key}`: {fault}")]
     Expression { key: &'static str, fault: ExpressionError },
@@ -53,6 +57,12 @@ pub enum SetupError {
     /// A term refuses the initial data.
     #[error(transparent)]
     Term(#[from] crate::energies::TermFault),
+}
+
+impl From<GradingError> for SetupError {
+    fn from(error: GradingError) -> Self {
+        Self::Grading(error)
+    }
 }
 
 // Not a `source`: the message holds all of it.

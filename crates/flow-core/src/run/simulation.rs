@@ -12,7 +12,7 @@ use super::scene::Scene;
 use super::schedule::frame_times;
 use super::setup::Setup;
 use super::setup_error::SetupError;
-use crate::geometry::{Layout, StateRef};
+use crate::geometry::Layout;
 use crate::integrator::{
     Adaptive, AdaptiveOptions, Bdf, Counters, Finish, INTEGRALS, Problem, StepReport, Stepper,
 };
@@ -272,7 +272,7 @@ fn not_finite(membrane: &mut Membrane, state: &[f64]) -> SetupError {
     let values = membrane.flow().energies_by_term(&nodal);
     let names: Vec<_> = membrane.flow().energy_terms().names().collect();
     let culprit = values.iter().position(|value| !value.is_finite()).unwrap_or_default();
-    let curvature = StateRef::new(layout, &nodal).pointwise(0);
+    let curvature = membrane.flow().current().at_nodes(0).to_vec();
     SetupError::EnergyNotFinite {
         term: names.get(culprit).copied().unwrap_or_default().to_owned(),
         value: values.get(culprit).copied().unwrap_or(f64::NAN),

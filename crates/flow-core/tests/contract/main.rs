@@ -5,6 +5,7 @@ mod cyclic_banded;
 mod derivative;
 mod dissipation;
 mod flow_map;
+mod gauges;
 mod helmholtz;
 mod incompressible;
 mod invariance;

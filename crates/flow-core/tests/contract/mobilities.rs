@@ -28,12 +28,14 @@ impl Normal {
     ];
 
     pub fn build(self, grid: &PeriodicGrid, derivative: &Derivative) -> Box<dyn NormalMobility> {
-        let (family, nodes) = (derivative.family(), grid.nodes());
+        let nodes = grid.nodes();
         match self {
             Self::Identity => Box::new(Identity),
-            Self::Incompressible => Box::new(Incompressible::new(family, nodes)),
+            Self::Incompressible => Box::new(Incompressible::new(derivative, nodes)),
             Self::AreaPreserving => Box::new(AreaPreserving),
-            Self::IncompressibleAreaPreserving => Box::new(IncompressibleAreaPreserving::new(family, nodes)),
+            Self::IncompressibleAreaPreserving => {
+                Box::new(IncompressibleAreaPreserving::new(derivative, nodes))
+            }
             Self::SurfaceDiffusion => Box::new(SurfaceDiffusion::new(grid, derivative)),
         }
     }
@@ -59,13 +61,13 @@ impl Density {
 
     pub fn build(self, grid: &PeriodicGrid, derivative: &Derivative) -> Box<dyn DensityMobility> {
         match self {
-            Self::Diffusion => Box::new(Diffusion::new(derivative)),
+            Self::Diffusion => Box::new(Diffusion::new(grid, derivative)),
             Self::Weighted => {
                 let weight = |s: &f64| 1.0 + 0.8 * (std::f64::consts::TAU * s).cos();
                 let points = WeightedDiffusion::flux_points(grid, derivative);
                 Box::new(WeightedDiffusion::new(grid, derivative, points.iter().map(weight).collect()))
             }
-            Self::Exchange => Box::new(Exchange),
+            Self::Exchange => Box::new(Exchange::new(grid, derivative)),
             Self::Carried => Box::new(Carried),
         }
     }

@@ -188,7 +188,7 @@ fn a_constant_weight_is_plain_diffusion() {
             let mut potential = vec![Complex64::default(); grid.modes()];
             grid.transform(&noise(7, nodes), &mut potential);
             let (mut plain, mut weighted) = (potential.clone(), potential.clone());
-            Diffusion::new(&derivative).apply(1.7, &potential, &mut plain);
+            Diffusion::new(&grid, &derivative).apply(1.7, &potential, &mut plain);
             WeightedDiffusion::new(&grid, &derivative, vec![2.0; nodes]).apply(
                 1.7,
                 &potential,

@@ -1,10 +1,11 @@
 //! Random smooth closed curves with random smooth densities.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use flow_core::expression::Expression;
 use flow_core::geometry::shapes::Shape;
-use flow_core::geometry::{Closure, Complex64, Layout, PeriodicGrid, SpectralLayout};
+use flow_core::geometry::{Closure, Complex64, Grading, Layout, PeriodicGrid, SpectralLayout};
 use proptest::prelude::*;
 
 /// Largest amplitudes of the modes 2, 3 and 4 of the radius: lobed, and still resolved by 32 nodes.
@@ -69,21 +70,40 @@ impl Blob {
 
     /// The densities on another curve.
     pub fn state_on(&self, shape: &Shape, nodes: usize, densities: usize) -> State {
-        let curve = shape.resample(nodes).expect("a smooth curve");
+        self.state_in(None, shape, nodes, densities)
+    }
+
+    /// The same curve at graded nodes.
+    pub fn graded_state(&self, grading: &Grading, densities: usize) -> State {
+        let r = Expression::parse(&self.radius_formula(), &["phi"]).expect("a formula");
+        self.state_in(Some(grading), &Shape::Polar { r }, grading.nodes(), densities)
+    }
+
+    fn state_in(&self, grading: Option<&Grading>, shape: &Shape, nodes: usize, densities: usize) -> State {
+        let curve = match grading {
+            None => shape.resample(nodes).expect("a smooth curve"),
+            Some(grading) => shape.resample_graded(grading).expect("a smooth curve"),
+        };
+        let uniform = || (0..nodes).map(|i| i as f64 / nodes as f64).collect();
+        let fractions: Vec<f64> = grading.map_or_else(uniform, Grading::fractions);
         let layout = Layout::new(nodes, densities);
         let density = |waves: &Waves<2>| -> Vec<f64> {
             let value = |s: f64| {
                 let waves = waves.iter().enumerate();
                 0.5 + waves.map(|(k, (b, q))| b * (TAU * (k + 1) as f64 * s + q).cos()).sum::<f64>()
             };
-            (0..nodes).map(|i| value(i as f64 / nodes as f64)).collect()
+            fractions.iter().map(|x| value(*x)).collect()
         };
         let values: Vec<Vec<f64>> = self.densities[..densities].iter().map(density).collect();
         let mut y = layout.assemble(&curve.curvature, &values, curve.length);
+        if let Some(grading) = grading {
+            grading.weigh(&mut y[..layout.length_index()]);
+        }
         let mut grid = PeriodicGrid::new(nodes);
         let mut spectrum = vec![Complex64::default(); grid.modes()];
         grid.transform(&y[layout.field(0)], &mut spectrum);
-        let gap = Closure::new(nodes).project(&mut spectrum, curve.length, curve.turning_number, curve.angle);
+        let mut closure = Closure::graded(nodes, grading.cloned().map(Arc::new));
+        let gap = closure.project(&mut spectrum, curve.length, curve.turning_number, curve.angle);
         gap.expect("a curve that closes");
         grid.synthesise(&spectrum, &mut y[layout.field(0)]);
         State { layout, y }

@@ -1,12 +1,14 @@
 //! Every term of the energy, and flows of it.
 
+use std::sync::Arc;
+
 use flow_core::energies::{
     Adhesion, Agents, Area, Bending, CutOff, EnergyTerm, Length, Local, Membrane, NodalLines, Packing,
     Regularization,
 };
 use flow_core::expression::Expression;
 use flow_core::flow::{EnergySum, FlowMap, GradientFlow};
-use flow_core::geometry::{Layout, PeriodicGrid};
+use flow_core::geometry::{Grading, Layout, PeriodicGrid};
 use flow_core::operators::{Derivative, DerivativeFamily};
 
 use crate::mobilities::{Density, Normal};
@@ -159,7 +161,7 @@ fn local(text: &str, densities: &[&str], nodes: usize) -> Local {
     Local::new(&expression, names.len(), nodes).expect("short derivatives")
 }
 
-/// The flow of `terms` under the mobilities.
+/// The flow of `terms` under the mobilities, on uniform nodes.
 pub fn flow_under(
     terms: Vec<Box<dyn EnergyTerm>>,
     family: DerivativeFamily,
@@ -167,8 +169,20 @@ pub fn flow_under(
     normal: Normal,
     densities: &[Density],
 ) -> GradientFlow {
+    flow_on(None, terms, family, layout, normal, densities)
+}
+
+/// The flow of `terms` under the mobilities, on nodes that may be graded.
+pub fn flow_on(
+    grading: Option<&Grading>,
+    terms: Vec<Box<dyn EnergyTerm>>,
+    family: DerivativeFamily,
+    layout: Layout,
+    normal: Normal,
+    densities: &[Density],
+) -> GradientFlow {
     let grid = PeriodicGrid::new(layout.nodes());
-    let derivative = Derivative::new(family, &grid);
+    let derivative = Derivative::graded(family, &grid, grading.cloned().map(Arc::new));
     let energy = EnergySum::new(terms, layout, &grid, &derivative);
     let map = FlowMap::new(layout, &grid, &derivative);
     let mobilities = densities.iter().map(|density| density.build(&grid, &derivative)).collect();

@@ -1,20 +1,25 @@
 //! Diffusion along the curve: 𝓖 = −`Δ_s`. See `THEORY.md`, eq. (F5).
 
 use super::DensityMobility;
-use crate::geometry::Complex64;
-use crate::operators::Derivative;
+use crate::geometry::vectors::scale;
+use crate::geometry::{Complex64, PeriodicGrid};
+use crate::operators::{Derivative, GradedLaplacian};
 
 /// By the second derivative of the family; the mass is conserved.
 #[derive(Clone, Debug)]
 pub struct Diffusion {
     minus_laplacian: Vec<f64>,
+    graded: Option<GradedLaplacian>,
 }
 
 impl Diffusion {
-    /// The mobility on the grid of `derivative`.
+    /// The mobility on the nodes of `derivative`.
     #[must_use]
-    pub fn new(derivative: &Derivative) -> Self {
-        Self { minus_laplacian: derivative.minus_laplacian().to_vec() }
+    pub fn new(grid: &PeriodicGrid, derivative: &Derivative) -> Self {
+        Self {
+            minus_laplacian: derivative.minus_laplacian().to_vec(),
+            graded: GradedLaplacian::of(grid, derivative),
+        }
     }
 }
 
@@ -24,9 +29,14 @@ impl DensityMobility for Diffusion {
     }
 
     fn apply(&mut self, length: f64, potential: &[Complex64], out: &mut [Complex64]) {
-        let scale = 1.0 / (length * length);
+        let factor = 1.0 / (length * length);
+        if let Some(graded) = &mut self.graded {
+            graded.apply(potential, out);
+            scale(bytemuck::cast_slice_mut(out), factor);
+            return;
+        }
         for ((out, potential), symbol) in out.iter_mut().zip(potential).zip(&self.minus_laplacian) {
-            *out = potential * (scale * symbol);
+            *out = potential * (factor * symbol);
         }
     }
 
@@ -38,9 +48,13 @@ impl DensityMobility for Diffusion {
         2
     }
 
-    fn three_points(&self, _: usize, nodes: usize, length: f64) -> [f64; 3] {
+    fn three_points(&self, node: usize, nodes: usize, length: f64) -> [f64; 3] {
         let scale = (nodes as f64 / length).powi(2);
-        [-scale, 2.0 * scale, -scale]
+        let [left, right] = match &self.graded {
+            None => [scale; 2],
+            Some(graded) => graded.grading().spacing(node, nodes).map(|spacing| scale * spacing),
+        };
+        [-left, left + right, -right]
     }
 
     fn conserves_mass(&self) -> bool {

@@ -1,11 +1,22 @@
 //! Exchange with the surroundings, the Allen–Cahn flow: 𝓖 = Id. See `THEORY.md`, eq. (F15).
 
 use super::DensityMobility;
-use crate::geometry::Complex64;
+use crate::geometry::{Complex64, PeriodicGrid};
+use crate::operators::{Derivative, GradedLaplacian};
 
 /// The mass is not conserved.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Exchange;
+#[derive(Clone, Debug)]
+pub struct Exchange {
+    graded: Option<GradedLaplacian>,
+}
+
+impl Exchange {
+    /// The mobility on the nodes of `derivative`.
+    #[must_use]
+    pub fn new(grid: &PeriodicGrid, derivative: &Derivative) -> Self {
+        Self { graded: GradedLaplacian::of(grid, derivative) }
+    }
+}
 
 impl DensityMobility for Exchange {
     fn name(&self) -> &'static str {
@@ -14,6 +25,9 @@ impl DensityMobility for Exchange {
 
     fn apply(&mut self, _: f64, potential: &[Complex64], out: &mut [Complex64]) {
         out.copy_from_slice(potential);
+        if let Some(graded) = &mut self.graded {
+            graded.weigh(out);
+        }
     }
 
     fn symbol(&self, _: f64, _: f64) -> f64 {

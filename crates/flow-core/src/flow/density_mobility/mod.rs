@@ -21,7 +21,8 @@ pub trait DensityMobility: Debug + Send + Sync {
     /// Name in scenes.
     fn name(&self) -> &'static str;
 
-    /// 𝓖 of the spectrum `potential` into `out`, on a curve of length `length`.
+    /// w𝓖 of the spectrum `potential` into `out`, on a curve of length `length`: per unit parameter and length, with the
+    /// grading w, 1 on uniform nodes.
     fn apply(&mut self, length: f64, potential: &[Complex64], out: &mut [Complex64]);
 
     /// Symbol of 𝓖 with its coefficients frozen at their means, for the symbol of −∂_s² per unit parameter.
@@ -30,7 +31,7 @@ pub trait DensityMobility: Debug + Send + Sync {
     /// Order of 𝓖 as a differential operator.
     fn order(&self) -> usize;
 
-    /// Second-order approximation of 𝓖 at node `node` of `nodes`: weights of the left neighbour, the node, the right one.
+    /// Second-order approximation of 𝓖 at node `node` of `nodes` graded alike: weights of the left neighbour, the node, the right one.
     fn three_points(&self, node: usize, nodes: usize, length: f64) -> [f64; 3];
 
     /// Whether the mass ∫ρ dσ is kept, whatever the energy.

@@ -1,10 +1,13 @@
 //! Diffusion with a fixed weight w(s) > 0: 𝓖 = −∇_s(w∇_s·). See `THEORY.md`, eq. (F14).
 //!
-//! On the grid 𝓖 = −D₋(w D₊ ·)/L², w at the flux points; the part of the second derivative that D₊ does not see (the
+//! On the grid 𝓖 = −D₋(w D₊ ·)/L², w at the flux points, where the grading divides it; the part of the second derivative that D₊ does not see (the
 //! sawtooth of the Fourier family) has the mean weight. A constant weight w is w times plain diffusion.
 
+use std::sync::Arc;
+
 use super::DensityMobility;
-use crate::geometry::{Complex64, PeriodicGrid};
+use crate::geometry::vectors::multiply;
+use crate::geometry::{Complex64, Grading, PeriodicGrid};
 use crate::operators::Derivative;
 
 /// The mass is conserved.
@@ -19,6 +22,7 @@ pub struct WeightedDiffusion {
     /// Distance of the first flux point from the first node, in node distances.
     offset: f64,
     flux: Vec<f64>,
+    grading: Option<Arc<Grading>>,
 }
 
 impl WeightedDiffusion {
@@ -37,6 +41,7 @@ impl WeightedDiffusion {
             weight,
             offset: Self::offset(derivative),
             flux: vec![0.0; grid.nodes()],
+            grading: derivative.grading().cloned(),
         }
     }
 
@@ -73,6 +78,9 @@ impl DensityMobility for WeightedDiffusion {
         for (flux, weight) in self.flux.iter_mut().zip(&self.weight) {
             *flux *= weight;
         }
+        if let Some(grading) = &self.grading {
+            multiply(&mut self.flux, grading.inverse_at_midpoints());
+        }
         self.grid.transform(&self.flux, out);
         let scale = 1.0 / (length * length);
         let symbols = self.to_flux.iter().zip(&self.unseen);
@@ -92,7 +100,8 @@ impl DensityMobility for WeightedDiffusion {
     fn three_points(&self, node: usize, nodes: usize, length: f64) -> [f64; 3] {
         let scale = (nodes as f64 / length).powi(2);
         let at = |shift: f64| scale * self.weight_at((node as f64 + shift) / nodes as f64);
-        let (left, right) = (at(-0.5), at(0.5));
+        let [near, far] = self.grading.as_ref().map_or([1.0; 2], |grading| grading.spacing(node, nodes));
+        let (left, right) = (near * at(-0.5), far * at(0.5));
         [-left, left + right, -right]
     }
 

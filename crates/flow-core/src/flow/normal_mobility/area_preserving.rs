@@ -12,8 +12,8 @@ impl NormalMobility for AreaPreserving {
         "area-preserving"
     }
 
-    fn apply(&mut self, _: &CurveFields, force: &[f64], velocity: &mut [f64]) {
-        let mean = force.iter().sum::<f64>() / force.len() as f64;
+    fn apply(&mut self, at: &CurveFields, force: &[f64], velocity: &mut [f64]) {
+        let mean = at.mean(force);
         for (v, f) in velocity.iter_mut().zip(force) {
             *v = f - mean;
         }

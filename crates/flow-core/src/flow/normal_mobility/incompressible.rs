@@ -2,25 +2,25 @@
 
 use super::{Kept, MobilityError, NormalMobility};
 use crate::flow::CurveFields;
-use crate::geometry::vectors::mean_of_product;
-use crate::operators::{DerivativeFamily, Helmholtz};
+use crate::operators::{CurveHelmholtz, Derivative};
 
 /// V = 𝓘f. The kernel of 𝓘 is spanned by κ; projecting κ out before and after changes nothing but the rounding, and
 /// makes the rate of the length ⟨κV⟩|Γ| zero up to it.
 #[derive(Clone, Debug)]
 pub struct Incompressible {
-    helmholtz: Helmholtz,
+    helmholtz: CurveHelmholtz,
     mean_square: f64,
     right: Vec<f64>,
     solution: Vec<f64>,
 }
 
 impl Incompressible {
-    /// Room for one state of `nodes` ≥ [`Helmholtz::FEWEST_NODES`] nodes.
+    /// Room for one state of `nodes` ≥ [`crate::operators::Helmholtz::FEWEST_NODES`] nodes
+    /// in the metric of `derivative`.
     #[must_use]
-    pub fn new(family: DerivativeFamily, nodes: usize) -> Self {
+    pub fn new(derivative: &Derivative, nodes: usize) -> Self {
         Self {
-            helmholtz: Helmholtz::new(family, nodes),
+            helmholtz: CurveHelmholtz::new(derivative, nodes),
             mean_square: 1.0,
             right: vec![0.0; nodes],
             solution: vec![0.0; nodes],
@@ -28,8 +28,9 @@ impl Incompressible {
     }
 
     /// Takes the component along κ out of `values`.
-    pub(super) fn project(&self, kappa: &[f64], values: &mut [f64]) {
-        let factor = mean_of_product(kappa, values) / self.mean_square;
+    pub(super) fn project(&self, at: &CurveFields, values: &mut [f64]) {
+        let kappa = at.at_nodes(0);
+        let factor = at.mean_of_product(kappa, values) / self.mean_square;
         for (value, kappa) in values.iter_mut().zip(kappa) {
             *value -= factor * kappa;
         }
@@ -43,14 +44,14 @@ impl NormalMobility for Incompressible {
 
     fn set(&mut self, at: &CurveFields) -> Result<(), MobilityError> {
         let kappa = at.at_nodes(0);
-        self.mean_square = mean_of_product(kappa, kappa);
+        self.mean_square = at.mean_of_product(kappa, kappa);
         Ok(self.helmholtz.set(kappa, at.length())?)
     }
 
     fn apply(&mut self, at: &CurveFields, force: &[f64], velocity: &mut [f64]) {
         let kappa = at.at_nodes(0);
         velocity.copy_from_slice(force);
-        self.project(kappa, velocity);
+        self.project(at, velocity);
         for ((right, kappa), f) in self.right.iter_mut().zip(kappa).zip(&*velocity) {
             *right = kappa * f;
         }
@@ -58,7 +59,7 @@ impl NormalMobility for Incompressible {
         for ((v, kappa), u) in velocity.iter_mut().zip(kappa).zip(&self.solution) {
             *v -= kappa * u;
         }
-        self.project(kappa, velocity);
+        self.project(at, velocity);
     }
 
     fn symbol(&self, wave_square: f64) -> f64 {

@@ -2,8 +2,7 @@
 
 use super::{Incompressible, Kept, MobilityError, NormalMobility};
 use crate::flow::CurveFields;
-use crate::geometry::vectors::mean_of_product;
-use crate::operators::DerivativeFamily;
+use crate::operators::Derivative;
 
 /// Mean square of the part of 1 off κ below which the curve is a circle to rounding: 1 is in the kernel of 𝓘.
 const ROUND: f64 = 1e-24;
@@ -20,11 +19,12 @@ pub struct IncompressibleAreaPreserving {
 }
 
 impl IncompressibleAreaPreserving {
-    /// Room for one state of `nodes` ≥ [`crate::operators::Helmholtz::FEWEST_NODES`] nodes.
+    /// Room for one state of `nodes` ≥ [`crate::operators::Helmholtz::FEWEST_NODES`] nodes
+    /// in the metric of `derivative`.
     #[must_use]
-    pub fn new(family: DerivativeFamily, nodes: usize) -> Self {
+    pub fn new(derivative: &Derivative, nodes: usize) -> Self {
         Self {
-            incompressible: Incompressible::new(family, nodes),
+            incompressible: Incompressible::new(derivative, nodes),
             one: vec![0.0; nodes],
             image: vec![0.0; nodes],
             inverse: 0.0,
@@ -40,16 +40,16 @@ impl NormalMobility for IncompressibleAreaPreserving {
     fn set(&mut self, at: &CurveFields) -> Result<(), MobilityError> {
         self.incompressible.set(at)?;
         self.one.fill(1.0);
-        self.incompressible.project(at.at_nodes(0), &mut self.one);
+        self.incompressible.project(at, &mut self.one);
         self.incompressible.apply(at, &self.one, &mut self.image);
-        let square = mean_of_product(&self.image, &self.one);
+        let square = at.mean_of_product(&self.image, &self.one);
         self.inverse = if square > ROUND { 1.0 / square } else { 0.0 };
         Ok(())
     }
 
     fn apply(&mut self, at: &CurveFields, force: &[f64], velocity: &mut [f64]) {
         self.incompressible.apply(at, force, velocity);
-        let factor = self.inverse * mean_of_product(velocity, &self.one);
+        let factor = self.inverse * at.mean_of_product(velocity, &self.one);
         for (v, image) in velocity.iter_mut().zip(&self.image) {
             *v -= factor * image;
         }

@@ -2,8 +2,9 @@
 
 use super::{Kept, NormalMobility};
 use crate::flow::CurveFields;
+use crate::geometry::vectors::{multiply, scale};
 use crate::geometry::{Complex64, PeriodicGrid};
-use crate::operators::Derivative;
+use crate::operators::{Derivative, GradedLaplacian};
 
 /// V = −`Δ_s` f by the second derivative of the family.
 #[derive(Clone, Debug)]
@@ -11,6 +12,7 @@ pub struct SurfaceDiffusion {
     grid: PeriodicGrid,
     minus_laplacian: Vec<f64>,
     spectrum: Vec<Complex64>,
+    graded: Option<(GradedLaplacian, Vec<Complex64>)>,
 }
 
 impl SurfaceDiffusion {
@@ -18,6 +20,8 @@ impl SurfaceDiffusion {
     #[must_use]
     pub fn new(grid: &PeriodicGrid, derivative: &Derivative) -> Self {
         Self {
+            graded: GradedLaplacian::of(grid, derivative)
+                .map(|laplacian| (laplacian, vec![Complex64::default(); grid.modes()])),
             grid: grid.clone(),
             minus_laplacian: derivative.minus_laplacian().to_vec(),
             spectrum: vec![Complex64::default(); grid.modes()],
@@ -32,9 +36,16 @@ impl NormalMobility for SurfaceDiffusion {
 
     fn apply(&mut self, at: &CurveFields, force: &[f64], velocity: &mut [f64]) {
         self.grid.transform(force, &mut self.spectrum);
-        let scale = at.length().powi(-2);
+        let factor = at.length().powi(-2);
+        if let Some((laplacian, image)) = &mut self.graded {
+            laplacian.apply(&self.spectrum, image);
+            self.grid.synthesise(image, velocity);
+            multiply(velocity, laplacian.grading().inverse());
+            scale(velocity, factor);
+            return;
+        }
         for (value, symbol) in self.spectrum.iter_mut().zip(&self.minus_laplacian) {
-            *value *= scale * symbol;
+            *value *= factor * symbol;
         }
         self.grid.synthesise(&self.spectrum, velocity);
     }

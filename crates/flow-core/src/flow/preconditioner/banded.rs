@@ -7,13 +7,13 @@
 
 use std::f64::consts::TAU;
 use std::fmt::Debug;
+use std::sync::Arc;
 
 use super::super::gradient_flow::GradientFlow;
-use super::super::normal_mobility::NormalMobility;
 use super::carries;
 use super::fourier::mobility_symbol;
-use crate::geometry::vectors::mean;
-use crate::geometry::{Complex64, Layout, PeriodicGrid};
+use crate::geometry::vectors::{mean, multiply};
+use crate::geometry::{Complex64, Grading, PeriodicGrid};
 use crate::operators::{CyclicBanded, FactorisationError};
 
 /// More nodes make the assembled sixth-order band inaccurate, and buy nothing.
@@ -35,15 +35,16 @@ pub trait Banded: Debug + Send {
 
 /// Builds the solver for the number of fields, up to four; none beyond, and none if the normal mobility is a
 /// differential operator: it widens the band.
-pub fn build(layout: Layout, mobility: &dyn NormalMobility) -> Option<Box<dyn Banded>> {
-    if mobility.order() > 0 {
+pub fn build(flow: &GradientFlow) -> Option<Box<dyn Banded>> {
+    if flow.normal_mobility().order() > 0 {
         return None;
     }
-    match layout.fields() {
-        1 => Some(Box::new(LocalPart::<1, 3>::new(layout.nodes()))),
-        2 => Some(Box::new(LocalPart::<2, 7>::new(layout.nodes()))),
-        3 => Some(Box::new(LocalPart::<3, 11>::new(layout.nodes()))),
-        4 => Some(Box::new(LocalPart::<4, 15>::new(layout.nodes()))),
+    let (nodes, grading) = (flow.layout().nodes(), flow.grading().map(Arc::as_ref));
+    match flow.layout().fields() {
+        1 => Some(Box::new(LocalPart::<1, 3>::new(nodes, grading))),
+        2 => Some(Box::new(LocalPart::<2, 7>::new(nodes, grading))),
+        3 => Some(Box::new(LocalPart::<3, 11>::new(nodes, grading))),
+        4 => Some(Box::new(LocalPart::<4, 15>::new(nodes, grading))),
         _ => None,
     }
 }
@@ -51,12 +52,37 @@ pub fn build(layout: Layout, mobility: &dyn NormalMobility) -> Option<Box<dyn Ba
 /// Coefficients of all `F` fields at one node.
 type Row<const F: usize> = [f64; F];
 
+/// A grading at the coarse nodes: the band is that of the pointwise fields, the spectra are those of w times them.
+#[derive(Debug)]
+struct LocalSpacing {
+    weight: Vec<f64>,
+    inverse: Vec<f64>,
+    /// Second differences that hold the grading exactly.
+    differences: Vec<[f64; 3]>,
+}
+
+impl LocalSpacing {
+    fn new(grading: &Grading, nodes: usize) -> Self {
+        let weight: Vec<f64> = (0..nodes).map(|i| grading.at(i as f64 / nodes as f64)).collect();
+        let difference = |i| {
+            let [left, right] = grading.spacing(i, nodes);
+            [left, -left - right, right]
+        };
+        Self {
+            inverse: weight.iter().map(|w| 1.0 / w).collect(),
+            weight,
+            differences: (0..nodes).map(difference).collect(),
+        }
+    }
+}
+
 #[derive(Debug)]
 struct LocalPart<const F: usize, const B: usize> {
     fine_modes: usize,
     grid: PeriodicGrid,
     /// Whether 𝓚 makes no mean, by field.
     keeps_mean: [bool; F],
+    local: Option<LocalSpacing>,
     matrix: CyclicBanded<B>,
     /// Symbol of A by mode.
     mass: Vec<f64>,
@@ -75,13 +101,14 @@ struct LocalPart<const F: usize, const B: usize> {
 }
 
 impl<const F: usize, const B: usize> LocalPart<F, B> {
-    fn new(nodes: usize) -> Self {
+    fn new(nodes: usize, grading: Option<&Grading>) -> Self {
         let coarse = nodes.clamp(8, MOST_NODES);
         let grid = PeriodicGrid::new(coarse);
         let fine_modes = nodes / 2 + 1;
         Self {
             fine_modes,
             keeps_mean: [true; F],
+            local: grading.map(|grading| LocalSpacing::new(grading, coarse)),
             matrix: CyclicBanded::new(coarse * F),
             mass: (0..grid.modes())
                 .map(|mode| 1.0 - (0.5 * TAU * mode as f64 / coarse as f64).sin().powi(2) / 3.0)
@@ -136,7 +163,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         gamma: f64,
         [difference, exact]: [f64; 2],
     ) -> [f64; 2] {
-        let length = flow.frozen().length();
+        let length = flow.symbol_length();
         let square = difference / (length * length);
         let band =
             if field == 0 { square * square } else { mobility_symbol(flow, field, difference, length) };
@@ -167,12 +194,17 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         self.coefficients[(F + high * (high + 1) / 2 + low) * self.grid.nodes() + i]
     }
 
+    /// Weights of `Δ_s` at node `i`, before the division by A.
+    fn difference(&self, i: usize, scale: f64) -> [f64; 3] {
+        self.local.as_ref().map_or(DIFFERENCE, |local| local.differences[i]).map(|weight| scale * weight)
+    }
+
     /// Stencils of the gradient p = Hess·Aw over the nodes i−1, i, i+1, and of the velocity
     /// AV = Bp₀ + A κΣφp over i−2 … i+2.
     fn set_stencils(&mut self, stiffness: &[f64], scale: f64) {
         let nodes = self.grid.nodes();
-        let difference = DIFFERENCE.map(|weight| scale * weight);
         for i in 0..nodes {
+            let difference = self.difference(i, scale);
             for f in 0..F {
                 for k in 0..3 {
                     let mut entries = [0.0; F];
@@ -186,6 +218,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         }
         for i in 0..nodes {
             let mut stencil = [[0.0; F]; 5];
+            let difference = self.difference(i, scale);
             for (shift, node) in neighbours(i, nodes).into_iter().enumerate() {
                 let kappa = MASS[shift] * self.coefficients[node];
                 for f in 0..F {
@@ -215,9 +248,10 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
                     for k in 0..7 {
                         row[k][f] = cube[k];
                     }
+                    let difference = self.difference(i, scale);
                     for (shift, node) in neighbours(i, nodes).into_iter().enumerate() {
                         let kappa = self.coefficients[node];
-                        let factor = gamma * (scale * DIFFERENCE[shift] + MASS[shift] * kappa * kappa);
+                        let factor = gamma * (difference[shift] + MASS[shift] * kappa * kappa);
                         for k in 0..5 {
                             for g in 0..F {
                                 row[shift + k][g] += factor * self.velocity_rows[node][k][g];
@@ -281,6 +315,9 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
                 *target = value * factor;
             }
             self.grid.synthesise(&self.spectrum, &mut self.values);
+            if let Some(local) = &self.local {
+                multiply(&mut self.values, &local.inverse);
+            }
             for (target, value) in self.interleaved.iter_mut().skip(field).step_by(F).zip(&self.values) {
                 *target = *value;
             }
@@ -290,6 +327,9 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
             for (value, target) in self.values.iter_mut().zip(self.interleaved.iter().skip(field).step_by(F))
             {
                 *value = *target;
+            }
+            if let Some(local) = &self.local {
+                multiply(&mut self.values, &local.weight);
             }
             self.grid.transform(&self.values, &mut self.spectrum);
             let factors = &self.after[field * low..(field + 1) * low];

@@ -46,7 +46,7 @@ impl FourierSymbol {
 
     /// Inverts the blocks of the modes from `first` on, at the frozen state of `flow`.
     pub fn set(&mut self, flow: &mut GradientFlow, gamma: f64, first: usize) {
-        let (fields, length) = (self.fields, flow.frozen().length());
+        let (fields, length) = (self.fields, flow.symbol_length());
         self.laplacian.copy_from_slice(flow.grid_and_derivative().1.minus_laplacian());
         let jet = flow.energy_terms().jet();
         let mean = |a: usize, b: usize| vectors::mean(jet.second(a, b));

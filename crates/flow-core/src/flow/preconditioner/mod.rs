@@ -60,7 +60,7 @@ impl Preconditioner {
             LinearSolver::Auto | LinearSolver::Fourier => {
                 FieldInverse::Fourier(FourierSymbol::new(layout, modes))
             }
-            LinearSolver::Banded => match banded::build(layout, flow.normal_mobility()) {
+            LinearSolver::Banded => match banded::build(flow) {
                 Some(banded) => FieldInverse::Banded(banded, FourierSymbol::new(layout, modes)),
                 None => FieldInverse::Fourier(FourierSymbol::new(layout, modes)),
             },
@@ -80,7 +80,7 @@ impl Preconditioner {
     /// Whether a banded factorisation exists for states of this flow.
     #[must_use]
     pub fn banded_exists(flow: &GradientFlow) -> bool {
-        banded::build(flow.layout(), flow.normal_mobility()).is_some()
+        banded::build(flow).is_some()
     }
 
     /// Factorises I − γJ at the frozen state of `flow`.

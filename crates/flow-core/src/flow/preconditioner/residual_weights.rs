@@ -24,7 +24,7 @@ impl ResidualWeights {
 
     /// Takes the symbols at the frozen state of `flow`, without the variable coefficients.
     pub fn set(&mut self, flow: &mut GradientFlow, gamma: f64) {
-        let (layout, length) = (flow.spectral_layout(), flow.frozen().length());
+        let (layout, length) = (flow.spectral_layout(), flow.symbol_length());
         for field in 0..flow.layout().fields() {
             let stiffness = flow.energy_terms().stiffness()[field] / (length * length);
             let start = layout.field(field).start;

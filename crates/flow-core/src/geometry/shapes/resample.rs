@@ -1,4 +1,4 @@
-//! Nodes of equal arc length: σ(φᵢ) = i|Γ|/n, and what the state of a curve needs there.
+//! Nodes at given fractions of the arc length, σ(φᵢ) = xᵢ|Γ|, and what the state of a curve needs there.
 
 use std::f64::consts::TAU;
 
@@ -7,7 +7,7 @@ use super::curve::{Curve, Jet, acceleration, speed, turning};
 use super::error::ShapeError;
 use super::quadrature::{POINTS, mean};
 
-/// A curve at n nodes of equal arc length; node 0 is γ(φ = 0).
+/// A curve at n nodes of equal or graded arc length; node 0 is γ(φ = 0).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resampled {
     /// Curvature κ at the nodes, positive on a circle.
@@ -16,24 +16,34 @@ pub struct Resampled {
     pub length: f64,
     /// Turning number ω ≥ 0: turns of the tangent along the curve.
     pub turning_number: i32,
-    /// Mean over the nodes of θ − 2πωs, as in [`Placement`](crate::geometry::Placement).
+    /// Mean over the curve of θ − 2πωx, as in [`Placement`](crate::geometry::Placement).
     pub angle: f64,
-    /// Mean position of the nodes.
+    /// Mean position of the curve.
     pub centre: [f64; 2],
     /// Position γ of the nodes.
     pub position: Vec<[f64; 2]>,
 }
 
-/// Resamples `curve` at `nodes` nodes.
-pub(super) fn resample(curve: &Curve, nodes: usize) -> Result<Resampled, ShapeError> {
-    assert!(nodes > 0, "a curve has at least one node");
+/// Resamples `curve` at the `fractions` of its arc length, increasing from 0; `weight` holds the weights of the nodes in
+/// means over the curve, if they are not all 1.
+pub(super) fn resample(
+    curve: &Curve,
+    fractions: &[f64],
+    weight: Option<&[f64]>,
+) -> Result<Resampled, ShapeError> {
+    let nodes = fractions.len();
     let arc_length = ArcLength::of(curve)?;
-    let places = invert(curve, &arc_length, nodes)?;
+    let places = invert(curve, &arc_length, fractions)?;
     let phi: Vec<f64> = places.iter().map(|place| place.phi(&arc_length)).collect();
     let jets = curve.jets(&phi);
-    let turns = f64::from(arc_length.turning_number) / nodes as f64;
-    let angle = |(i, (place, jet))| tangent_angle(&arc_length, place, jet) - TAU * turns * i as f64;
-    let mean_of = |axis: usize| jets.iter().map(|[position, ..]| position[axis]).sum::<f64>() / nodes as f64;
+    let turns = f64::from(arc_length.turning_number);
+    let weight = |i: usize| weight.map_or(1.0, |weight| weight[i]);
+    let angle =
+        |(i, (place, jet))| weight(i) * (tangent_angle(&arc_length, place, jet) - TAU * turns * fractions[i]);
+    let mean_of = |axis: usize| {
+        let positions = jets.iter().enumerate().map(|(i, [position, ..])| weight(i) * position[axis]);
+        positions.sum::<f64>() / nodes as f64
+    };
     Ok(Resampled {
         curvature: jets.iter().map(|jet| turning(jet) / speed(jet)).collect(),
         length: arc_length.total(),
@@ -69,11 +79,11 @@ const MOST_PASSES: usize = 100;
 /// Step, in widths of the cell, whose third power is rounding: what Halley's method leaves behind.
 const LAST_STEP: f64 = 1e-6;
 
-/// Solves σ(φᵢ) = i|Γ|/n for every node by Halley's method.
-fn invert(curve: &Curve, arc_length: &ArcLength, nodes: usize) -> Result<Vec<Place>, ShapeError> {
+/// Solves σ(φᵢ) = xᵢ|Γ| for every node by Halley's method.
+fn invert(curve: &Curve, arc_length: &ArcLength, fractions: &[f64]) -> Result<Vec<Place>, ShapeError> {
     let rounding = 2.0 * f64::EPSILON * arc_length.total();
     let mut places: Vec<Place> =
-        (0..nodes).map(|i| Place::guess(arc_length, i as f64 / nodes as f64)).collect();
+        fractions.iter().map(|fraction| Place::guess(arc_length, *fraction)).collect();
     for _ in 0..MOST_PASSES {
         let mut open: Vec<&mut Place> = places.iter_mut().filter(|place| !place.found).collect();
         if open.is_empty() {

@@ -6,6 +6,7 @@ use super::error::ShapeError;
 use super::points::Interpolated;
 use super::resample::{Resampled, resample};
 use crate::expression::Expression;
+use crate::geometry::Grading;
 
 /// A closed curve γ(φ), φ ∈ [0, 2π), counter-clockwise where it encloses an area.
 ///
@@ -56,7 +57,16 @@ impl Shape {
     /// # Panics
     /// If `nodes` is 0.
     pub fn resample(&self, nodes: usize) -> Result<Resampled, ShapeError> {
-        resample(&self.curve()?, nodes)
+        assert!(nodes > 0, "a curve has at least one node");
+        let fractions: Vec<f64> = (0..nodes).map(|i| i as f64 / nodes as f64).collect();
+        resample(&self.curve()?, &fractions, None)
+    }
+
+    /// The curve at graded nodes; node 0 is γ(φ = 0).
+    /// # Errors
+    /// As [`resample`](Self::resample).
+    pub fn resample_graded(&self, grading: &Grading) -> Result<Resampled, ShapeError> {
+        resample(&self.curve()?, &grading.fractions(), Some(grading.weight()))
     }
 
     /// The length |Γ|, to a relative 1e-12.

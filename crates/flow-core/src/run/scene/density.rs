@@ -4,10 +4,9 @@ use serde::Serialize;
 
 use super::choice::names;
 use super::entry::Entry;
-use super::error::{Bound, Fault};
+use super::error::Fault;
 use super::formula::Formula;
 use super::section::Section;
-use crate::expression::Program;
 
 /// Names that mean something in expressions; a density called so could not be written there.
 const RESERVED: [&str; 20] = [
@@ -81,7 +80,8 @@ impl Density {
         let initial = initial.and_then(|entry| entry.formula(&["s"]));
         let mobility = section.required("mobility", "mobility = \"diffusion\"");
         let mobility: Option<DensityMobility> = mobility.and_then(|entry| entry.choice(&[]));
-        let weight = section.get("weight").map(|entry| positive_weight(&entry));
+        let weight =
+            section.get("weight").map(|entry| entry.positive_formula("s", "add a constant, for example 0.1"));
         if let Some(other) = mobility.filter(|m| weight.is_some() && *m != DensityMobility::Diffusion) {
             let remedy = "drop the weight, or use mobility = \"diffusion\"";
             section.fault("weight", Fault::OtherChoice { choice: "mobility", value: other.name(), remedy });
@@ -93,29 +93,6 @@ impl Density {
         };
         Some(Self { name: name?, initial: initial?, mobility: mobility?, weight })
     }
-}
-
-/// Parameters at which a weight is looked at; the flux points are checked once they are known.
-const SAMPLES: usize = 512;
-
-fn positive_weight(entry: &Entry<'_>) -> Option<Formula> {
-    let weight = entry.formula(&["s"])?;
-    let remedy = "add a constant, for example 0.1";
-    let points: Vec<f64> = (0..SAMPLES).map(|i| i as f64 / SAMPLES as f64).collect();
-    let program = Program::compile(&[weight.expression()]);
-    let (mut values, mut scratch) = (vec![0.0; SAMPLES], vec![0.0; program.scratch_len()]);
-    program.evaluate(&[&points], &mut [&mut values], &mut scratch);
-    let wrong = values.iter().position(|value| !Bound::Positive.contains(*value));
-    let Some(at) = wrong else { return Some(weight) };
-    entry.fault(Fault::ValueOutOfRange {
-        text: weight.text(),
-        variable: "s",
-        at: points[at],
-        value: values[at],
-        bound: Bound::Positive,
-        remedy,
-    });
-    None
 }
 
 fn checked_name(entry: &Entry<'_>, names: &[Option<String>]) -> Option<String> {

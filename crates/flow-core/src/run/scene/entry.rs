@@ -13,6 +13,9 @@ use super::report::Report;
 use super::section::Section;
 use super::suggest::nearest;
 
+/// Points at which a formula that must be positive is looked at.
+const SAMPLES: usize = 512;
+
 /// A value with its place. Methods that return `None` have reported why.
 pub(super) struct Entry<'d> {
     report: &'d Report<'d>,
@@ -121,6 +124,19 @@ impl<'d> Entry<'d> {
                 None
             }
         }
+    }
+
+    /// A number or an expression of a variable in [0, 1) that is positive wherever it is looked at here; the nodes are checked
+    /// once they are known.
+    pub(super) fn positive_formula(&self, variable: &'static str, remedy: &'static str) -> Option<Formula> {
+        let formula = self.formula(&[variable])?;
+        let points: Vec<f64> = (0..SAMPLES).map(|i| i as f64 / SAMPLES as f64).collect();
+        let values = formula.values(&points);
+        let wrong = values.iter().position(|value| !Bound::Positive.contains(*value));
+        let Some(at) = wrong else { return Some(formula) };
+        let (text, at, value) = (formula.text(), points[at], values[at]);
+        self.fault(Fault::ValueOutOfRange { text, variable, at, value, bound: Bound::Positive, remedy });
+        None
     }
 
     pub(super) fn section(self) -> Option<Section<'d>> {

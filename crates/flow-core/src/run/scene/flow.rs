@@ -3,6 +3,8 @@
 use serde::Serialize;
 
 use super::choice::names;
+use super::error::Fault;
+use super::formula::Formula;
 use super::section::Section;
 
 /// Table `[flow]`; may be left out.
@@ -12,6 +14,9 @@ pub struct Flow {
     pub normal_mobility: NormalMobility,
     /// The rule for the tangential velocity.
     pub gauge: Gauge,
+    /// The metric of the graded gauge, an expression of `s` in `[0, 1)` up to a factor: nodes crowd where it is small.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub grading: Option<Formula>,
     /// Whether the run stops once the curve crosses itself more often than at the start; crossings are legal unless
     /// this is set.
     pub stop_on_contact: bool,
@@ -38,14 +43,20 @@ names! {
     pub enum Gauge {
         /// The metric g stays uniform along the curve. The default.
         ScaledArcLength = "scaled-arc-length",
+        /// The metric g is the length times a fixed function of the parameter, `grading`.
+        Graded = "graded",
     }
 }
+
+/// Two crowded places.
+const GRADING: &str = "grading = \"1 + 0.6*cos(4*pi*s)\"";
 
 impl Default for Flow {
     fn default() -> Self {
         Self {
             normal_mobility: NormalMobility::Identity,
             gauge: Gauge::ScaledArcLength,
+            grading: None,
             stop_on_contact: false,
         }
     }
@@ -55,12 +66,27 @@ impl Flow {
     pub(super) fn read(mut section: Section<'_>) -> Self {
         let default = Self::default();
         let normal_mobility = section.get("normal_mobility").and_then(|entry| entry.choice(&[]));
-        let gauge = section.get("gauge").and_then(|entry| entry.choice(&["graded", "co-moving"]));
+        let gauge = section.get("gauge").and_then(|entry| entry.choice(&["co-moving"]));
+        let grading = section.get("grading");
+        let known = gauge.unwrap_or(default.gauge);
+        match (known, &grading) {
+            (Gauge::Graded, None) => section.fault("grading", Fault::MissingKey { example: GRADING }),
+            (Gauge::Graded, Some(_)) => {}
+            // A gauge that is not known has its own message.
+            (other, Some(_)) if gauge.is_some() || !section.has("gauge") => {
+                let remedy = "drop the grading, or use gauge = \"graded\"";
+                section.fault("grading", Fault::OtherChoice { choice: "gauge", value: other.name(), remedy });
+            }
+            _ => {}
+        }
+        let grading =
+            grading.and_then(|entry| entry.positive_formula("s", "add a constant, for example 0.1"));
         let stop_on_contact = section.get("stop_on_contact").and_then(|entry| entry.boolean());
         section.finish();
         Self {
             normal_mobility: normal_mobility.unwrap_or(default.normal_mobility),
-            gauge: gauge.unwrap_or(default.gauge),
+            gauge: known,
+            grading,
             stop_on_contact: stop_on_contact.unwrap_or(default.stop_on_contact),
         }
     }

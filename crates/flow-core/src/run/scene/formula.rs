@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-use crate::expression::{Expression, ExpressionError};
+use crate::expression::{Expression, ExpressionError, Program};
 
 /// A number or an expression of a scene, with its text, ready to be evaluated.
 #[derive(Clone, Debug)]
@@ -38,6 +38,15 @@ impl Formula {
     #[must_use]
     pub fn expression(&self) -> &Expression {
         &self.expression
+    }
+
+    /// Values of a formula of one variable at `points`.
+    #[must_use]
+    pub fn values(&self, points: &[f64]) -> Vec<f64> {
+        let program = Program::compile(&[&self.expression]);
+        let (mut values, mut scratch) = (vec![0.0; points.len()], vec![0.0; program.scratch_len()]);
+        program.evaluate(&[points], &mut [&mut values], &mut scratch);
+        values
     }
 
     /// Names of the variables that the formula may use, in the order in which they are passed to the expression.

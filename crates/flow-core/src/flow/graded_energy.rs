@@ -1,0 +1,57 @@
+//! What graded nodes add to the energy: p = `e_φ` + (1/w)·(Sφ c/|Γ|² + …) with S = D₊ᵀ(1/w)D₊. See `THEORY.md`, eq. (D9).
+
+use crate::geometry::vectors::{add_scaled, multiply};
+use crate::geometry::{Complex64, Layout, PeriodicGrid};
+use crate::operators::{Derivative, GradedLaplacian};
+
+/// S with the images of the fields at the linearisation; holds its scratch.
+#[derive(Debug)]
+pub struct GradedEnergy {
+    grid: PeriodicGrid,
+    laplacian: GradedLaplacian,
+    image: Vec<Complex64>,
+    frozen: Vec<Complex64>,
+    values: Vec<f64>,
+}
+
+impl GradedEnergy {
+    /// For states of `layout`; none if the nodes are uniform.
+    #[must_use]
+    pub fn of(layout: Layout, grid: &PeriodicGrid, derivative: &Derivative) -> Option<Self> {
+        let laplacian = GradedLaplacian::of(grid, derivative)?;
+        Some(Self {
+            grid: grid.clone(),
+            laplacian,
+            image: vec![Complex64::default(); grid.modes()],
+            frozen: vec![Complex64::default(); layout.fields() * grid.modes()],
+            values: vec![0.0; layout.nodes()],
+        })
+    }
+
+    /// Spectrum of S of a field.
+    pub fn image(&mut self, spectrum: &[Complex64]) -> &[Complex64] {
+        self.laplacian.apply(spectrum, &mut self.image);
+        &self.image
+    }
+
+    /// Keeps the image found last as that of `field` at the linearisation.
+    pub fn freeze(&mut self, field: usize) {
+        let modes = self.image.len();
+        self.frozen[field * modes..(field + 1) * modes].copy_from_slice(&self.image);
+    }
+
+    /// Spectrum of S of `field` at the linearisation.
+    #[must_use]
+    pub fn frozen(&self, field: usize) -> &[Complex64] {
+        let modes = self.image.len();
+        &self.frozen[field * modes..(field + 1) * modes]
+    }
+
+    /// p becomes `density` + p/w.
+    pub fn finish(&mut self, density: &[f64], p: &mut [Complex64]) {
+        self.grid.synthesise(p, &mut self.values);
+        multiply(&mut self.values, self.laplacian.grading().inverse());
+        add_scaled(&mut self.values, 1.0, density);
+        self.grid.transform(&self.values, p);
+    }
+}

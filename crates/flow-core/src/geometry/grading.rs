@@ -1,0 +1,237 @@
+//! Graded arc length: nodes of the fixed metric g = |Γ|w(s) instead of the uniform one. See `THEORY.md`, eq. (D8).
+
+use super::grid::{Complex64, PeriodicGrid};
+use super::vectors::{mean, mean_of_product, multiply, scale};
+
+/// The grading cannot be used on a grid.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+#[allow(missing_docs)] // each message names its fields
+pub enum GradingError {
+    /// Not a metric.
+    #[error(
+        "the grading is {value} at s = {parameter:.6}: it must be positive and finite for all s in [0, 1)"
+    )]
+    NotPositive { parameter: f64, value: f64 },
+    /// Sharper than the distance of the nodes.
+    #[error(
+        "the grading is not resolved by {nodes} nodes: interpolated from them to s = {parameter:.6} it is off by \
+         {error:.1e} of its value, and at most {bound:.0e} is allowed; use more nodes, or a smoother grading"
+    )]
+    NotResolved { nodes: usize, parameter: f64, error: f64, bound: f64 },
+}
+
+/// Largest error, relative to the value, of the grading interpolated to the midpoints.
+const RESOLVED: f64 = 1e-2;
+
+/// The positive weight w(s) of mean 1 at n nodes sᵢ = i/n and at the n midpoints after them.
+///
+/// The arc length from node 0 to node i is |Γ|xᵢ with xᵢ = ∫₀^{sᵢ} w ds, by the Fourier antiderivative.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grading {
+    weight: Vec<f64>,
+    inverse: Vec<f64>,
+    at_midpoints: Vec<f64>,
+    inverse_at_midpoints: Vec<f64>,
+    midpoint_mean: f64,
+    inverse_square_mean: f64,
+    /// x − s at the nodes, and its mean over the curve.
+    shift: Vec<f64>,
+    mean_shift: f64,
+}
+
+impl Grading {
+    /// Number of samples for `nodes` nodes, at s = i/(2 `nodes`).
+    #[must_use]
+    pub fn samples(nodes: usize) -> usize {
+        2 * nodes
+    }
+
+    /// The grading with the values `samples` at s = i/(2n), an even number of them, normalised to mean 1 over the nodes.
+    ///
+    /// # Errors
+    /// [`GradingError`] if a value is not positive, or n nodes do not resolve them.
+    pub fn new(samples: &[f64]) -> Result<Self, GradingError> {
+        let nodes = samples.len() / 2;
+        assert!(nodes >= 2 && samples.len() == 2 * nodes, "two samples for each of at least two nodes");
+        if let Some(at) = samples.iter().position(|value| !(*value > 0.0 && value.is_finite())) {
+            return Err(GradingError::NotPositive {
+                parameter: at as f64 / samples.len() as f64,
+                value: samples[at],
+            });
+        }
+        let mut weight: Vec<f64> = samples.iter().copied().step_by(2).collect();
+        let mut at_midpoints: Vec<f64> = samples.iter().copied().skip(1).step_by(2).collect();
+        let total = 1.0 / mean(&weight);
+        scale(&mut weight, total);
+        scale(&mut at_midpoints, total);
+        let mut grid = PeriodicGrid::new(nodes);
+        let mut spectrum = vec![Complex64::default(); grid.modes()];
+        let mut shift = vec![0.0; nodes];
+        grid.transform(&weight, &mut spectrum);
+        let half: Vec<Complex64> =
+            spectrum.iter().enumerate().map(|(j, w)| w * half_step(&grid, j)).collect();
+        grid.synthesise(&half, &mut shift);
+        for (i, (interpolated, value)) in shift.iter().zip(&at_midpoints).enumerate() {
+            let error = (interpolated / value - 1.0).abs();
+            if error > RESOLVED {
+                let parameter = (i as f64 + 0.5) / nodes as f64;
+                return Err(GradingError::NotResolved { nodes, parameter, error, bound: RESOLVED });
+            }
+        }
+        grid.integrate(&mut spectrum);
+        grid.synthesise(&spectrum, &mut shift);
+        let first = shift[0];
+        shift.iter_mut().for_each(|x| *x -= first);
+        let reciprocal = |values: &[f64]| -> Vec<f64> { values.iter().map(|w| 1.0 / w).collect() };
+        let inverse = reciprocal(&weight);
+        Ok(Self {
+            midpoint_mean: mean(&at_midpoints),
+            inverse_square_mean: mean_of_product(&inverse, &inverse),
+            mean_shift: mean_of_product(&weight, &shift),
+            shift,
+            inverse_at_midpoints: reciprocal(&at_midpoints),
+            at_midpoints,
+            inverse,
+            weight,
+        })
+    }
+
+    /// Number of nodes.
+    #[must_use]
+    pub fn nodes(&self) -> usize {
+        self.weight.len()
+    }
+
+    /// w at the nodes: the weights of means over the curve.
+    #[must_use]
+    pub fn weight(&self) -> &[f64] {
+        &self.weight
+    }
+
+    /// 1/w at the nodes.
+    #[must_use]
+    pub fn inverse(&self) -> &[f64] {
+        &self.inverse
+    }
+
+    /// w at the midpoints.
+    #[must_use]
+    pub fn at_midpoints(&self) -> &[f64] {
+        &self.at_midpoints
+    }
+
+    /// 1/w at the midpoints.
+    #[must_use]
+    pub fn inverse_at_midpoints(&self) -> &[f64] {
+        &self.inverse_at_midpoints
+    }
+
+    /// Mean of w over the midpoints: 1 up to what the grid does not resolve.
+    #[must_use]
+    pub fn midpoint_mean(&self) -> f64 {
+        self.midpoint_mean
+    }
+
+    /// Mean over the nodes of w⁻², the coefficient of `Δ_s` with its variation left out.
+    #[must_use]
+    pub fn inverse_square_mean(&self) -> f64 {
+        self.inverse_square_mean
+    }
+
+    /// Fractions xᵢ of the arc length at the nodes, x₀ = 0.
+    #[must_use]
+    pub fn fractions(&self) -> Vec<f64> {
+        let count = self.nodes() as f64;
+        self.shift.iter().enumerate().map(|(i, shift)| i as f64 / count + shift).collect()
+    }
+
+    /// Fractions of the arc length at the midpoints, by linear interpolation of x − s.
+    #[must_use]
+    pub fn midpoint_fractions(&self) -> Vec<f64> {
+        let count = self.nodes();
+        let shift = |i: usize| 0.5 * (self.shift[i] + self.shift[(i + 1) % count]);
+        (0..count).map(|i| (i as f64 + 0.5) / count as f64 + shift(i)).collect()
+    }
+
+    /// x − s at the nodes.
+    #[must_use]
+    pub fn shift(&self) -> &[f64] {
+        &self.shift
+    }
+
+    /// Mean of x − s over the curve.
+    #[must_use]
+    pub fn mean_shift(&self) -> f64 {
+        self.mean_shift
+    }
+
+    /// w at any parameter, by linear interpolation.
+    #[must_use]
+    pub fn at(&self, parameter: f64) -> f64 {
+        let count = 2 * self.nodes();
+        let place = (parameter * count as f64).rem_euclid(count as f64);
+        let (left, part) = (place as usize % count, place.fract());
+        let sample = |i: usize| {
+            let i = i % count;
+            if i.is_multiple_of(2) { self.weight[i / 2] } else { self.at_midpoints[i / 2] }
+        };
+        (1.0 - part) * sample(left) + part * sample(left + 1)
+    }
+
+    /// 1/w at node `node` of `nodes` equidistant ones, which need not be those of the grading, times 1/w halfway to the
+    /// node before and halfway to the one after: the coefficients of `Δ_s` by second differences.
+    #[must_use]
+    pub fn spacing(&self, node: usize, nodes: usize) -> [f64; 2] {
+        let at = |shift: f64| self.at((node as f64 + shift) / nodes as f64);
+        [-0.5, 0.5].map(|shift| 1.0 / (at(0.0) * at(shift)))
+    }
+
+    /// Multiplies consecutive nodal fields by w: from pointwise values to values per unit parameter and length.
+    pub fn weigh(&self, fields: &mut [f64]) {
+        for field in fields.chunks_exact_mut(self.nodes()) {
+            multiply(field, &self.weight);
+        }
+    }
+}
+
+/// Symbol of the shift by half a node distance; the sawtooth vanishes between the nodes.
+fn half_step(grid: &PeriodicGrid, mode: usize) -> Complex64 {
+    if Some(mode) == grid.sawtooth_mode() {
+        return Complex64::default();
+    }
+    Complex64::cis(0.5 * grid.wave_number(mode) / grid.nodes() as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    fn samples(nodes: usize, amplitude: f64) -> Vec<f64> {
+        (0..2 * nodes).map(|i| 3.0 + amplitude * (TAU * i as f64 / (2 * nodes) as f64).cos()).collect()
+    }
+
+    #[test]
+    fn it_has_mean_one_and_adds_up_to_fractions_of_the_length() {
+        for nodes in [32, 45] {
+            let grading = Grading::new(&samples(nodes, 1.5)).unwrap();
+            assert!((mean(grading.weight()) - 1.0).abs() < 1e-15);
+            for (i, x) in grading.fractions().into_iter().enumerate() {
+                let s = i as f64 / nodes as f64;
+                assert!((x - s - 0.5 * (TAU * s).sin() / TAU).abs() < 1e-15, "{x}");
+            }
+            assert!((grading.at(0.25) - 1.0).abs() < 1e-2);
+        }
+    }
+
+    #[test]
+    fn it_must_be_positive_and_resolved() {
+        assert!(
+            matches!(Grading::new(&samples(32, 4.0)), Err(GradingError::NotPositive { value, .. }) if value < 0.0)
+        );
+        let mut rough = samples(32, 0.0);
+        rough[9] = 5.0;
+        assert!(matches!(Grading::new(&rough), Err(GradingError::NotResolved { nodes: 32, .. })));
+    }
+}

@@ -1,0 +1,146 @@
+//! The Helmholtz operator H = −`Δ_s` + κ² on uniform or graded nodes. See `THEORY.md`, eqs. (O5) and (O7).
+
+use std::sync::Arc;
+
+use super::cyclic_banded::CyclicBanded;
+use super::derivative::{Derivative, DerivativeFamily};
+use super::helmholtz::{Helmholtz, HelmholtzError, LEAST_CURVATURE, REFINED_FROM};
+use crate::geometry::Grading;
+use crate::geometry::vectors::mean_of_triple_product;
+
+/// H of a curve, in the metric of its nodes.
+#[derive(Clone, Debug)]
+pub enum CurveHelmholtz {
+    /// On uniform nodes.
+    Uniform(Helmholtz),
+    /// On graded nodes.
+    Graded(GradedHelmholtz),
+}
+
+impl CurveHelmholtz {
+    /// Room for H on `nodes` ≥ [`Helmholtz::FEWEST_NODES`] nodes in the metric of `derivative`.
+    #[must_use]
+    pub fn new(derivative: &Derivative, nodes: usize) -> Self {
+        match derivative.grading() {
+            None => Self::Uniform(Helmholtz::new(derivative.family(), nodes)),
+            Some(grading) => Self::Graded(GradedHelmholtz::new(derivative.family(), grading.clone())),
+        }
+    }
+
+    /// Factorises H for the nodal `curvature` on a curve of length `length`, without allocating.
+    ///
+    /// # Errors
+    /// [`HelmholtzError`] if the curvature vanishes or is not finite, or the factorisation fails.
+    pub fn set(&mut self, curvature: &[f64], length: f64) -> Result<(), HelmholtzError> {
+        match self {
+            Self::Uniform(operator) => operator.set(curvature, length),
+            Self::Graded(operator) => operator.set(curvature, length),
+        }
+    }
+
+    /// Solves H u = f with the factorisation held. Shapes: one value per node.
+    pub fn solve(&mut self, f: &[f64], u: &mut [f64]) {
+        match self {
+            Self::Uniform(operator) => operator.solve(f, u),
+            Self::Graded(operator) => operator.solve(f, u),
+        }
+    }
+}
+
+/// Half-width of the band: that of staggered differences of order 8, which stand in for the Fourier family.
+const WIDTH: usize = 7;
+
+/// (S/|Γ|² + wκ²)u = wf with S = D₊ᵀ(1/w)D₊ by staggered differences.
+#[derive(Clone, Debug)]
+pub struct GradedHelmholtz {
+    grading: Arc<Grading>,
+    /// Coefficients of D₊ per node distance, of the differences u(i+1+j) − u(i−j).
+    stencil: &'static [f64],
+    band: CyclicBanded<WIDTH>,
+    scale: f64,
+    /// wκ².
+    square: Vec<f64>,
+    slope: Vec<f64>,
+    residual: Vec<f64>,
+}
+
+impl GradedHelmholtz {
+    fn new(family: DerivativeFamily, grading: Arc<Grading>) -> Self {
+        let nodes = grading.nodes();
+        Self {
+            grading,
+            stencil: family.differences(),
+            band: CyclicBanded::new(nodes),
+            scale: 0.0,
+            square: vec![0.0; nodes],
+            slope: vec![0.0; nodes],
+            residual: vec![0.0; nodes],
+        }
+    }
+
+    fn set(&mut self, curvature: &[f64], length: f64) -> Result<(), HelmholtzError> {
+        let weight = self.grading.weight();
+        let value = length * length * mean_of_triple_product(weight, curvature, curvature);
+        if !(value >= LEAST_CURVATURE && value.is_finite()) {
+            return Err(HelmholtzError::NoCurvature { value });
+        }
+        for ((square, kappa), weight) in self.square.iter_mut().zip(curvature).zip(weight) {
+            *square = weight * kappa * kappa;
+        }
+        let nodes = self.square.len();
+        self.scale = (nodes as f64 / length).powi(2);
+        self.band.clear();
+        let inverse = self.grading.inverse_at_midpoints();
+        let reach = self.stencil.len() as isize;
+        // Weight in D₊ of the node `offset` nodes after the one before the midpoint.
+        let of = |offset: isize| {
+            if offset > 0 { self.stencil[offset as usize - 1] } else { -self.stencil[offset.unsigned_abs()] }
+        };
+        for row in 0..nodes {
+            let mut entries = [0.0; 2 * WIDTH + 1];
+            entries[WIDTH] = self.square[row];
+            for here in 1 - reach..=reach {
+                let midpoint = (row as isize - here).rem_euclid(nodes as isize) as usize;
+                let factor = self.scale * inverse[midpoint] * of(here);
+                for there in 1 - reach..=reach {
+                    entries[(WIDTH as isize + there - here) as usize] += factor * of(there);
+                }
+            }
+            self.band.set_row(row, -(WIDTH as isize), &entries);
+        }
+        self.band.factorise().map_err(HelmholtzError::Singular)
+    }
+
+    fn solve(&mut self, f: &[f64], u: &mut [f64]) {
+        for ((u, f), weight) in u.iter_mut().zip(f).zip(self.grading.weight()) {
+            *u = weight * f;
+        }
+        self.band.solve(u);
+        if u.len() >= REFINED_FROM {
+            self.write_residual(f, u);
+            self.band.solve(&mut self.residual);
+            for (u, correction) in u.iter_mut().zip(&self.residual) {
+                *u += correction;
+            }
+        }
+    }
+
+    /// w f − wκ²u − D₊ᵀ(1/w)D₊u/|Γ|², as differences of differences.
+    fn write_residual(&mut self, f: &[f64], u: &[f64]) {
+        let nodes = u.len();
+        for i in 0..nodes {
+            let difference =
+                |(j, d): (usize, &f64)| d * (u[(i + 1 + j) % nodes] - u[(i + nodes - j) % nodes]);
+            let slope: f64 = self.stencil.iter().enumerate().map(difference).sum();
+            self.slope[i] = self.scale * self.grading.inverse_at_midpoints()[i] * slope;
+        }
+        for i in 0..nodes {
+            // D₊ᵀ takes the midpoints before minus those after.
+            let difference = |(j, d): (usize, &f64)| {
+                d * (self.slope[(i + nodes - 1 - j) % nodes] - self.slope[(i + j) % nodes])
+            };
+            let divergence: f64 = self.stencil.iter().enumerate().map(difference).sum();
+            self.residual[i] = self.grading.weight()[i] * f[i] - self.square[i] * u[i] - divergence;
+        }
+    }
+}
