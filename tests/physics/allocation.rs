@@ -54,6 +54,17 @@ fn steps_with_a_cut_off_do_not_allocate() {
 }
 
 #[test]
+fn steps_on_graded_nodes_do_not_allocate() {
+    let graded = [("flow.gauge", "graded"), ("flow.grading", "1 + 0.5*cos(4*pi*s)")];
+    assert_eq!(allocations("adhesion", &graded), 0);
+    for solver in ["fourier", "banded"] {
+        let changes = [("accuracy.nodes", "256"), ("accuracy.linear_solver", solver)];
+        assert_eq!(allocations("three_fold", &[&graded[..], &changes].concat()), 0, "{solver}");
+    }
+    assert_eq!(allocations("incompressible", &graded), 0);
+}
+
+#[test]
 fn steps_of_every_mobility_do_not_allocate() {
     for mobility in
         ["incompressible", "area-preserving", "incompressible-area-preserving", "surface-diffusion"]
