@@ -1,6 +1,7 @@
 //! The flow does not depend on the gauge: the graded one makes the same curve, with its nodes where they are wanted.
 
 use std::f64::consts::TAU;
+use std::fmt::Write;
 
 use curveflow_tests::{crossings, largest_rise, last, middle, run, shipped};
 use flow_core::geometry::{Complex64, Grading, PeriodicGrid};
@@ -133,10 +134,10 @@ fn crowded(frame: &Frame, height: f64, width: f64, harmonics: usize) -> String {
         place[i + 1] = place[i] + 0.5 * (left + right) / fine as f64;
     }
     let total = place[fine];
-    let samples = 2048;
+    let samples = 2048_u32;
     let weight: Vec<f64> = (0..samples)
         .map(|i| {
-            let target = total * i as f64 / samples as f64;
+            let target = total * f64::from(i) / f64::from(samples);
             let right = place.partition_point(|p| *p <= target).clamp(1, fine);
             let part = (target - place[right - 1]) / (place[right] - place[right - 1]);
             total / density((right as f64 - 1.0 + part) / fine as f64)
@@ -146,7 +147,7 @@ fn crowded(frame: &Frame, height: f64, width: f64, harmonics: usize) -> String {
     let mut text = format!("{:.12}", series.spectrum[0].re);
     for (mode, value) in series.spectrum.iter().enumerate().take(harmonics + 1).skip(1) {
         let (amplitude, phase) = (2.0 * value.norm(), value.arg());
-        text += &format!(" + {amplitude:.12}*cos({mode}*2*pi*s + ({phase:.12}))");
+        write!(text, " + {amplitude:.12}*cos({mode}*2*pi*s + ({phase:.12}))").expect("room");
     }
     text
 }

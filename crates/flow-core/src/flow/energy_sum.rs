@@ -4,12 +4,12 @@
 //! nodes; on graded nodes w enters as a weight. See `THEORY.md`, eqs. (D3)–(D5) and (D9).
 
 use super::curve_fields::CurveFields;
-use super::graded_energy::GradedEnergy;
+use super::graded_energy::{GradedEnergy, add_spectrum, mean_product};
 use super::shape_energy::ShapeEnergy;
 use super::slope_energy::SlopeEnergy;
 use crate::energies::{EnergyTerm, Fields, Jet, LengthJet, Order, TermFault};
 use crate::geometry::vectors::{
-    add_product, add_real_symbol, add_scaled, dot, multiply, multiply_into, scale_into, weighted_dot,
+    add_product, add_real_symbol, multiply, multiply_into, scale_into, weighted_dot,
 };
 use crate::geometry::{Complex64, Layout, PeriodicGrid, SpectralLayout};
 use crate::operators::Derivative;
@@ -297,16 +297,4 @@ impl EnergySum {
             shape.add_hessian_product(&mut self.terms, v, out);
         }
     }
-}
-
-/// Mean of the product of two fields by Parseval's identity.
-fn mean_product(grid: &PeriodicGrid, a: &[Complex64], b: &[Complex64]) -> f64 {
-    let product = |m: usize| a[m].re * b[m].re + a[m].im * b[m].im;
-    let full = dot(bytemuck::cast_slice(a), bytemuck::cast_slice(b));
-    2.0 * full - product(0) - grid.sawtooth_mode().map_or(0.0, product)
-}
-
-/// out += factor × spectrum.
-fn add_spectrum(out: &mut [Complex64], factor: f64, spectrum: &[Complex64]) {
-    add_scaled(bytemuck::cast_slice_mut(out), factor, bytemuck::cast_slice(spectrum));
 }

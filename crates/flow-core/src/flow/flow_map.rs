@@ -180,7 +180,9 @@ impl FlowMap {
         self.grid.synthesise(&self.spectrum, w);
         if let Some(graded) = &self.graded {
             let mean = mean_of_product(graded.grading().weight(), w);
-            w.iter_mut().for_each(|w| *w -= mean);
+            for w in w {
+                *w -= mean;
+            }
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What graded nodes add to the energy: p = `e_φ` + (1/w)·(Sφ c/|Γ|² + …) with S = D₊ᵀ(1/w)D₊. See `THEORY.md`, eq. (D9).
 
-use crate::geometry::vectors::{add_scaled, multiply};
+use crate::geometry::vectors::{add_scaled, dot, multiply};
 use crate::geometry::{Complex64, Layout, PeriodicGrid};
 use crate::operators::{Derivative, GradedLaplacian};
 
@@ -54,4 +54,16 @@ impl GradedEnergy {
         add_scaled(&mut self.values, 1.0, density);
         self.grid.transform(&self.values, p);
     }
+}
+
+/// Mean of the product of two fields by Parseval's identity.
+pub fn mean_product(grid: &PeriodicGrid, a: &[Complex64], b: &[Complex64]) -> f64 {
+    let product = |m: usize| a[m].re * b[m].re + a[m].im * b[m].im;
+    let full = dot(bytemuck::cast_slice(a), bytemuck::cast_slice(b));
+    2.0 * full - product(0) - grid.sawtooth_mode().map_or(0.0, product)
+}
+
+/// out += factor × spectrum.
+pub fn add_spectrum(out: &mut [Complex64], factor: f64, spectrum: &[Complex64]) {
+    add_scaled(bytemuck::cast_slice_mut(out), factor, bytemuck::cast_slice(spectrum));
 }

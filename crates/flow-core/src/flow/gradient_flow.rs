@@ -7,7 +7,8 @@ use super::density_mobility::DensityMobility;
 use super::energy_sum::{EnergySum, IntrinsicGradient};
 use super::flow_map::FlowMap;
 use super::normal_mobility::{MobilityError, NormalMobility};
-use crate::geometry::{Complex64, Grading, Layout, SpectralLayout};
+use crate::geometry::{Complex64, Grading, Layout, PeriodicGrid, SpectralLayout};
+use crate::operators::Derivative;
 
 /// What an evaluation of the flow tells besides the rates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -111,9 +112,7 @@ impl GradientFlow {
     }
 
     /// Grid and derivative.
-    pub fn grid_and_derivative(
-        &mut self,
-    ) -> (&mut crate::geometry::PeriodicGrid, &crate::operators::Derivative) {
+    pub fn grid_and_derivative(&mut self) -> (&mut PeriodicGrid, &Derivative) {
         self.map.grid_and_derivative()
     }
 
@@ -121,19 +120,6 @@ impl GradientFlow {
     #[must_use]
     pub fn grading(&self) -> Option<&Arc<Grading>> {
         self.map.grading()
-    }
-
-    /// The length whose symbols stand for −`Δ_s` at the linearisation, the variation of the metric left out.
-    #[must_use]
-    pub(super) fn symbol_length(&self) -> f64 {
-        let length = self.frozen.length();
-        self.grading().map_or(length, |grading| length / grading.inverse_square_mean().sqrt())
-    }
-
-    /// Shape of the spectral state vector.
-    #[must_use]
-    pub fn spectral_layout(&self) -> SpectralLayout {
-        SpectralLayout::new(self.layout)
     }
 
     /// How often a mode stands in the full spectrum.

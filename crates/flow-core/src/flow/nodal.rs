@@ -2,6 +2,7 @@
 //! The integrator works on spectral vectors (see `gradient_flow.rs`).
 
 use super::gradient_flow::{GradientFlow, Rate};
+use crate::geometry::SpectralLayout;
 
 impl GradientFlow {
     /// Rate of the nodal state `y` into `rate`.
@@ -66,6 +67,19 @@ impl GradientFlow {
         let mut product = vec![0.0; dual.len()];
         self.spectral_mobility(&dual, &mut product);
         self.decode(&product, out);
+    }
+
+    /// The length whose symbols stand for −`Δ_s` at the linearisation, the variation of the metric left out.
+    #[must_use]
+    pub(super) fn symbol_length(&self) -> f64 {
+        let length = self.frozen().length();
+        self.grading().map_or(length, |grading| length / grading.inverse_square_mean().sqrt())
+    }
+
+    /// Shape of the spectral state vector.
+    #[must_use]
+    pub fn spectral_layout(&self) -> SpectralLayout {
+        SpectralLayout::new(self.layout())
     }
 
     fn encoded(&mut self, nodal: &[f64]) -> Vec<f64> {

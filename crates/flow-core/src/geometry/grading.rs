@@ -82,7 +82,9 @@ impl Grading {
         grid.integrate(&mut spectrum);
         grid.synthesise(&spectrum, &mut shift);
         let first = shift[0];
-        shift.iter_mut().for_each(|x| *x -= first);
+        for x in &mut shift {
+            *x -= first;
+        }
         let reciprocal = |values: &[f64]| -> Vec<f64> { values.iter().map(|w| 1.0 / w).collect() };
         let inverse = reciprocal(&weight);
         Ok(Self {

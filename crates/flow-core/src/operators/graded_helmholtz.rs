@@ -12,9 +12,9 @@ use crate::geometry::vectors::mean_of_triple_product;
 #[derive(Clone, Debug)]
 pub enum CurveHelmholtz {
     /// On uniform nodes.
-    Uniform(Helmholtz),
+    Uniform(Box<Helmholtz>),
     /// On graded nodes.
-    Graded(GradedHelmholtz),
+    Graded(Box<GradedHelmholtz>),
 }
 
 impl CurveHelmholtz {
@@ -22,8 +22,10 @@ impl CurveHelmholtz {
     #[must_use]
     pub fn new(derivative: &Derivative, nodes: usize) -> Self {
         match derivative.grading() {
-            None => Self::Uniform(Helmholtz::new(derivative.family(), nodes)),
-            Some(grading) => Self::Graded(GradedHelmholtz::new(derivative.family(), grading.clone())),
+            None => Self::Uniform(Box::new(Helmholtz::new(derivative.family(), nodes))),
+            Some(grading) => {
+                Self::Graded(Box::new(GradedHelmholtz::new(derivative.family(), grading.clone())))
+            }
         }
     }
 

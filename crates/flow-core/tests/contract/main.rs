@@ -13,6 +13,7 @@ mod linear_solvers;
 mod mobilities;
 mod mobility_laws;
 mod pointwise_force;
+mod regrading;
 mod second_derivative;
 mod stability;
 mod states;

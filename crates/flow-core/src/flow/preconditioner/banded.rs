@@ -12,6 +12,7 @@ use std::sync::Arc;
 use super::super::gradient_flow::GradientFlow;
 use super::carries;
 use super::fourier::mobility_symbol;
+use super::local_spacing::LocalSpacing;
 use crate::geometry::vectors::{mean, multiply};
 use crate::geometry::{Complex64, Grading, PeriodicGrid};
 use crate::operators::{CyclicBanded, FactorisationError};
@@ -51,30 +52,6 @@ pub fn build(flow: &GradientFlow) -> Option<Box<dyn Banded>> {
 
 /// Coefficients of all `F` fields at one node.
 type Row<const F: usize> = [f64; F];
-
-/// A grading at the coarse nodes: the band is that of the pointwise fields, the spectra are those of w times them.
-#[derive(Debug)]
-struct LocalSpacing {
-    weight: Vec<f64>,
-    inverse: Vec<f64>,
-    /// Second differences that hold the grading exactly.
-    differences: Vec<[f64; 3]>,
-}
-
-impl LocalSpacing {
-    fn new(grading: &Grading, nodes: usize) -> Self {
-        let weight: Vec<f64> = (0..nodes).map(|i| grading.at(i as f64 / nodes as f64)).collect();
-        let difference = |i| {
-            let [left, right] = grading.spacing(i, nodes);
-            [left, -left - right, right]
-        };
-        Self {
-            inverse: weight.iter().map(|w| 1.0 / w).collect(),
-            weight,
-            differences: (0..nodes).map(difference).collect(),
-        }
-    }
-}
 
 #[derive(Debug)]
 struct LocalPart<const F: usize, const B: usize> {

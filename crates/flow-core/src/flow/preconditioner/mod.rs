@@ -4,6 +4,7 @@ mod banded;
 mod dense;
 mod fourier;
 mod length_coupling;
+mod local_spacing;
 mod residual_weights;
 
 use serde::{Deserialize, Serialize};
