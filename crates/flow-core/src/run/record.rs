@@ -54,6 +54,22 @@ pub struct StepLog {
     pub rejections: Vec<Rejections>,
 }
 
+impl StepLog {
+    /// An empty log with room for `steps` steps.
+    #[must_use]
+    pub fn with_room(steps: usize) -> Self {
+        let column = || Vec::with_capacity(steps);
+        Self {
+            time: column(),
+            size: column(),
+            energy: column(),
+            dissipation: column(),
+            order: Vec::with_capacity(steps),
+            rejections: Vec::with_capacity(steps),
+        }
+    }
+}
+
 /// Why a run stopped.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StopReason {

@@ -17,6 +17,8 @@ use crate::integrator::{
     Adaptive, AdaptiveOptions, Bdf, Counters, Finish, INTEGRALS, Problem, StepReport, Stepper,
 };
 
+/// Steps that are logged without allocating; beyond, the room doubles now and then.
+const STEP_ROOM: usize = 4096;
 /// Part of the tolerance by which the energy balance of one step may be off.
 pub const ENERGY_TOLERANCE_SHARE: f64 = 0.01;
 
@@ -88,7 +90,7 @@ impl Simulation {
             energy_terms: membrane.flow().energy_terms().names().map(str::to_owned).collect(),
             densities: scene.density.iter().map(|density| density.name.clone()).collect(),
             frames: vec![first],
-            steps: StepLog::default(),
+            steps: StepLog::with_room(STEP_ROOM),
             counters,
             stop_reason: StopReason::EndTime,
         };
