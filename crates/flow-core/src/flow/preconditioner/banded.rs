@@ -256,7 +256,9 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
 
 impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
     fn modes(&self) -> usize {
-        self.grid.modes()
+        let modes = self.grid.modes();
+        // The sawtooth of a coarser grid has a sine part, which that grid does not see.
+        if modes < self.fine_modes { modes - 1 } else { modes }
     }
 
     fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> Result<(), FactorisationError> {
@@ -272,9 +274,9 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
     }
 
     fn apply(&mut self, spectra: &mut [Complex64]) {
-        let low = self.grid.modes();
+        let (modes, low) = (self.grid.modes(), self.modes());
         for field in 0..F {
-            let factors = &self.before[field * low..(field + 1) * low];
+            let factors = &self.before[field * modes..][..low];
             let spectrum = &spectra[field * self.fine_modes..(field + 1) * self.fine_modes];
             self.spectrum.fill(Complex64::default());
             for ((target, value), factor) in self.spectrum.iter_mut().zip(spectrum).zip(factors) {
@@ -292,7 +294,7 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
                 *value = *target;
             }
             self.grid.transform(&self.values, &mut self.spectrum);
-            let factors = &self.after[field * low..(field + 1) * low];
+            let factors = &self.after[field * modes..][..low];
             let spectrum = &mut spectra[field * self.fine_modes..(field + 1) * self.fine_modes];
             // Where J makes no mean, its local part does: the mean stays as it was.
             let kept = usize::from(self.keeps_mean[field]);
