@@ -1,16 +1,16 @@
-//! The local part of I − γJ with variable coefficients, by second differences on a grid of at most
+//! The local part of I − γJ with variable coefficients, by the compact fourth-order Laplacian on a grid of at most
 //! [`MOST_NODES`] nodes, corrected on both sides by the root of the ratio of the symbols.
 //!
-//! Second differences alone are a poor approximation of the Fourier derivative at high modes: the ratio of
-//! the constant-coefficient symbols takes that out. Modes that the coarse grid does not hold are left to the
-//! Fourier symbol. The tangential (non-local) part is of order 3 against 6 and left to the Krylov iteration.
+//! The ratio of the constant-coefficient symbols takes out what the differences miss at high modes. Modes that the
+//! coarse grid does not hold are left to the Fourier symbol. The tangential (non-local) part is of order 3 against 6
+//! and left to the Krylov iteration. See `THEORY.md`, eq. (O2).
 
-use std::f64::consts::TAU;
 use std::fmt::Debug;
 
 use super::super::gradient_flow::GradientFlow;
 use super::super::normal_mobility::NormalMobility;
 use super::carries;
+use super::compact_laplacian::{DIFFERENCE, MASS, convolve, mass_symbol, neighbours, symbol_of_mass};
 use super::fourier::mobility_symbol;
 use crate::geometry::vectors::mean;
 use crate::geometry::{Complex64, Layout, PeriodicGrid};
@@ -18,10 +18,6 @@ use crate::operators::{CyclicBanded, FactorisationError};
 
 /// More nodes make the assembled sixth-order band inaccurate, and buy nothing.
 const MOST_NODES: usize = 1024;
-
-/// A and B of the compact fourth-order Laplacian A⁻¹B.
-const MASS: [f64; 3] = [1.0 / 12.0, 10.0 / 12.0, 1.0 / 12.0];
-const DIFFERENCE: [f64; 3] = [1.0, -2.0, 1.0];
 
 /// A banded approximate inverse acting on spectra.
 pub trait Banded: Debug + Send {
@@ -83,9 +79,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
             fine_modes,
             keeps_mean: [true; F],
             matrix: CyclicBanded::new(coarse * F),
-            mass: (0..grid.modes())
-                .map(|mode| 1.0 - (0.5 * TAU * mode as f64 / coarse as f64).sin().powi(2) / 3.0)
-                .collect(),
+            mass: (0..grid.modes()).map(|mode| mass_symbol(mode, coarse)).collect(),
             before: vec![1.0; F * grid.modes()],
             after: vec![1.0; F * grid.modes()],
             coefficients: vec![0.0; (F + F * (F + 1) / 2) * coarse],
@@ -153,7 +147,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
             for mode in 0..modes.min(self.fine_modes) {
                 let exact = flow.grid_and_derivative().1.minus_laplacian()[mode];
                 let mass = self.mass[mode];
-                let difference = 12.0 * (coarse as f64).powi(2) * (1.0 - mass) / mass;
+                let difference = symbol_of_mass(mass, coarse);
                 let [band, right] = Self::diagonal_symbols(flow, field, mean, gamma, [difference, exact]);
                 let (power, root) = (if field == 0 { mass * mass } else { mass }, (band / right).sqrt());
                 self.before[field * modes + mode] = power * root;
@@ -303,20 +297,4 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
             }
         }
     }
-}
-
-/// The node before `i`, `i` and the node after it.
-fn neighbours(i: usize, nodes: usize) -> [usize; 3] {
-    [(i + nodes - 1) % nodes, i, (i + 1) % nodes]
-}
-
-/// Stencil of a product with A.
-fn convolve<const N: usize, const M: usize>(stencil: &[f64; N]) -> [f64; M] {
-    let mut product = [0.0; M];
-    for (shift, weight) in MASS.iter().enumerate() {
-        for (k, value) in stencil.iter().enumerate() {
-            product[shift + k] += weight * value;
-        }
-    }
-    product
 }
