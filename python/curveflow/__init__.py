@@ -12,6 +12,7 @@ from .errors import BugError, CurveflowError, SceneError, SetupError, StorageErr
 from .result import Result, open
 from .running import Progress, run
 from .scene import Scene, scenes
+from .system import System
 
 __all__ = [
     "BugError",
@@ -22,6 +23,7 @@ __all__ = [
     "SceneError",
     "SetupError",
     "StorageError",
+    "System",
     "open",
     "run",
     "scenes",

@@ -1,5 +1,7 @@
 //! What the physics tests share: scenes, runs, and the checks that every run must pass.
 
+pub mod physics;
+
 use flow_core::run::{Frame, Quiet, Record, Scene, StopReason};
 
 /// A shipped scene with `changes` (dotted key, value).

@@ -203,6 +203,22 @@ const MISTAKES: &[Mistake] = &[
         &["line 26", "\"logarithmic\"", "did you mean `log`", "`linear`"],
     ),
     (
+        "frames = 10",
+        "fields = [\"normal-force\", \"excess-denisty\"]",
+        &[
+            "line 26",
+            "`output.fields.1`",
+            "\"excess-denisty\"",
+            "did you mean `excess-density`",
+            "`energy-density`",
+        ],
+    ),
+    (
+        "frames = 10",
+        "fields = \"normal-force\"",
+        &["line 26", "`output.fields` must be a list of names", "[brackets]"],
+    ),
+    (
         "shape = \"trillium\"",
         "shape = \"circel\"",
         &["line 4", "`curve.shape`", "\"circel\"", "did you mean `circle`"],

@@ -9,6 +9,7 @@ mod arrays;
 mod error;
 mod record;
 mod scene;
+mod system;
 mod watcher;
 
 /// The extension module.
@@ -18,4 +19,6 @@ mod _curveflow {
     use super::record::{Record, read, run};
     #[pymodule_export]
     use super::scene::{Scene, shipped};
+    #[pymodule_export]
+    use super::system::System;
 }

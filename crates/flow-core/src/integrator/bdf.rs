@@ -28,7 +28,7 @@ const FIRST_GROWTH: f64 = 1e4;
 
 /// Local error for which the global error is about the tolerance.
 fn local_tolerance(tolerance: f64) -> f64 {
-    LOCAL_SHARE * tolerance * (tolerance / 1e-5).powf(1.0 / (HIGHEST_ORDER + 1) as f64)
+    LOCAL_SHARE * tolerance * (tolerance / 1e-5).min(1.0).powf(1.0 / (HIGHEST_ORDER + 1) as f64)
 }
 
 /// The method with its state.

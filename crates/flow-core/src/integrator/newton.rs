@@ -17,7 +17,9 @@ const GAMMA_DRIFT: f64 = 1.35;
 /// Newton's method converges quadratically.
 const FIRST_CONTRACTION: f64 = 0.02;
 /// Accepted steps after which the preconditioner is renewed in any case.
-const OLDEST_FACTORISATION: usize = 5;
+const OLDEST_FACTORISATION: usize = 30;
+/// Krylov iterations that an ageing preconditioner may take more than it did at first.
+const MORE_ITERATIONS: usize = 1;
 
 /// How an iteration ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,6 +49,8 @@ pub struct NewtonKrylov {
     correction: Vec<f64>,
     factorised_gamma: Option<f64>,
     factorisation_age: usize,
+    /// Krylov iterations of the first solve with the factorisation, and of the last.
+    iterations: [usize; 2],
 }
 
 impl NewtonKrylov {
@@ -59,6 +63,7 @@ impl NewtonKrylov {
             correction: vec![0.0; size],
             factorised_gamma: None,
             factorisation_age: 0,
+            iterations: [0; 2],
         }
     }
 
@@ -93,12 +98,15 @@ impl NewtonKrylov {
 
     fn factorisation_serves(&self, gamma: f64) -> bool {
         let near = |old: f64| gamma < GAMMA_DRIFT * old && old < GAMMA_DRIFT * gamma;
-        self.factorised_gamma.is_some_and(near) && self.factorisation_age < OLDEST_FACTORISATION
+        let [first, last] = self.iterations;
+        let good = self.factorisation_age < OLDEST_FACTORISATION && last <= first + MORE_ITERATIONS;
+        self.factorised_gamma.is_some_and(near) && good
     }
 
     fn factorise(&mut self, problem: &mut dyn Problem, gamma: f64, counters: &mut Counters) -> bool {
         counters.factorisations += 1;
         self.factorisation_age = 0;
+        self.iterations = [0; 2];
         self.factorised_gamma = problem.factorise(gamma).then_some(gamma);
         self.factorised_gamma.is_some()
     }
@@ -169,6 +177,12 @@ impl NewtonKrylov {
         }
         let target = Target { goal: KRYLOV_SHARE * stage.goal, reduction: KRYLOV_REDUCTION, weighted };
         let solved = self.gmres.solve(problem, norm, stage.gamma, target, &mut self.correction, counters);
+        if weighted {
+            self.iterations[1] = solved.iterations;
+            if self.factorisation_age == 0 {
+                self.iterations[0] = solved.iterations;
+            }
+        }
         if problem.krylov_feedback(solved.iterations) {
             self.factorised_gamma = None;
         }

@@ -5,10 +5,7 @@
 //! blocks are matrices with Dirichlet ends); what is left couples the separators, a small dense matrix, which is
 //! pivoted. See `THEORY.md`, eq. (O2).
 
-#![allow(clippy::inline_always)] // these bodies must be compiled inside each version of the loops
-
-use multiversion::multiversion;
-
+use super::band_factors::{Factors, LANES, Lane, eliminate, substitute_backward, substitute_forward};
 use super::small_lu::SmallLu;
 
 /// The matrix has no usable LU factorisation.
@@ -20,12 +17,6 @@ pub struct FactorisationError {
     /// Its value.
     pub pivot: f64,
 }
-
-/// Segments eliminated at once: one register of the widest kind.
-const LANES: usize = 8;
-
-/// One value for each segment.
-type Lane = [f64; LANES];
 
 /// A cyclic matrix with `B` bands on each side of the diagonal.
 ///
@@ -42,24 +33,6 @@ pub struct CyclicBanded<const B: usize> {
     reduced: Vec<f64>,
     /// The right-hand side by segments, after `B` zeros.
     work: Vec<Lane>,
-}
-
-/// The matrix by segments; factorised in place.
-#[derive(Clone, Debug)]
-struct Factors<const B: usize> {
-    /// Rows of a segment before its separator.
-    interior: usize,
-    /// Entries left of the diagonal; becomes L.
-    lower: Vec<[Lane; B]>,
-    /// Becomes the inverse of U's diagonal.
-    diagonal: Vec<Lane>,
-    upper: Vec<[Lane; B]>,
-    /// Entries in the columns of the separator before the segment.
-    right: Vec<[Lane; B]>,
-    /// Entries in the rows of the separator before the segment, by column.
-    bottom: Vec<[Lane; B]>,
-    /// What the elimination adds to the block of the separator before the segment.
-    corner: [[Lane; B]; B],
 }
 
 impl<const B: usize> CyclicBanded<B> {
@@ -242,98 +215,5 @@ impl<const B: usize> CyclicBanded<B> {
                 *value = row[lane];
             }
         }
-    }
-}
-
-/// a −= b c, lane by lane.
-#[inline(always)]
-fn subtract_product(a: &mut Lane, b: &Lane, c: &Lane) {
-    for lane in 0..LANES {
-        a[lane] -= b[lane] * c[lane];
-    }
-}
-
-/// Eliminates the interiors; row, lane and value of the first bad pivot.
-#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn eliminate<const B: usize>(factors: &mut Factors<B>) -> Option<(usize, usize, f64)> {
-    for r in 0..factors.interior {
-        let pivot = factors.diagonal[r];
-        let inverse = pivot.map(|value| 1.0 / value);
-        if let Some(lane) = inverse.iter().position(|value| !value.is_finite() || *value == 0.0) {
-            return Some((r, lane, pivot[lane]));
-        }
-        factors.diagonal[r] = inverse;
-        let (upper, right) = (factors.upper[r], factors.right[r]);
-        for j in 1..=B {
-            let target = r + j;
-            let mut factor = factors.lower[target][B - j];
-            for lane in 0..LANES {
-                factor[lane] *= inverse[lane];
-            }
-            factors.lower[target][B - j] = factor;
-            // Column r + 1 + k of row r + j.
-            for k in 0..j - 1 {
-                subtract_product(&mut factors.lower[target][B + k + 1 - j], &factor, &upper[k]);
-            }
-            subtract_product(&mut factors.diagonal[target], &factor, &upper[j - 1]);
-            for k in j..B {
-                subtract_product(&mut factors.upper[target][k - j], &factor, &upper[k]);
-            }
-            for k in 0..B {
-                subtract_product(&mut factors.right[target][k], &factor, &right[k]);
-            }
-        }
-        let mut bottom = factors.bottom[r];
-        for value in &mut bottom {
-            for lane in 0..LANES {
-                value[lane] *= inverse[lane];
-            }
-        }
-        factors.bottom[r] = bottom;
-        for k in 0..B {
-            for b in 0..B {
-                subtract_product(&mut factors.bottom[r + 1 + k][b], &bottom[b], &upper[k]);
-                subtract_product(&mut factors.corner[b][k], &bottom[b], &right[k]);
-            }
-        }
-    }
-    None
-}
-
-/// L-solve of `work`; returns what goes to the separators before the segments.
-#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn substitute_forward<const B: usize>(factors: &Factors<B>, work: &mut [Lane]) -> [Lane; B] {
-    let mut tail = [[0.0; LANES]; B];
-    for (r, lower) in factors.lower.iter().enumerate() {
-        let mut sum = work[B + r];
-        for k in 0..B {
-            subtract_product(&mut sum, &lower[k], &work[r + k]);
-        }
-        work[B + r] = sum;
-        if r < factors.interior {
-            for (tail, bottom) in tail.iter_mut().zip(&factors.bottom[r]) {
-                subtract_product(tail, bottom, &sum);
-            }
-        }
-    }
-    tail
-}
-
-/// U-solve of `work`, whose separators are solved; `previous` holds those before the segments.
-#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn substitute_backward<const B: usize>(factors: &Factors<B>, previous: &[Lane; B], work: &mut [Lane]) {
-    for r in (0..factors.interior).rev() {
-        let mut sum = work[B + r];
-        for (right, previous) in factors.right[r].iter().zip(previous) {
-            subtract_product(&mut sum, right, previous);
-        }
-        // The newest value last, so that a row waits for one product only.
-        for k in (0..B).rev() {
-            subtract_product(&mut sum, &factors.upper[r][k], &work[B + r + 1 + k]);
-        }
-        for lane in 0..LANES {
-            sum[lane] *= factors.diagonal[r][lane];
-        }
-        work[B + r] = sum;
     }
 }

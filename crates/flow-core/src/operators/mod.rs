@@ -1,5 +1,6 @@
 //! Linear maps on nodal fields.
 
+mod band_factors;
 mod cyclic_banded;
 mod derivative;
 mod graded_helmholtz;

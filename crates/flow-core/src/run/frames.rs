@@ -1,5 +1,6 @@
 //! Makes the frames of a record from states.
 
+use super::diagnostics::{Diagnostics, Evaluated};
 use super::membrane::{ANGLE, CENTRE, DISSIPATED, Membrane};
 use super::record::Frame;
 use crate::geometry::{StateRef, enclosed_area};
@@ -11,6 +12,7 @@ use crate::integrator::{INTEGRALS, Problem};
 /// time 0.
 pub fn frame(
     membrane: &mut Membrane,
+    diagnostics: &mut Diagnostics,
     time: f64,
     y: &mut [f64],
     integrals: [f64; INTEGRALS],
@@ -30,6 +32,7 @@ pub fn frame(
     let energy_terms = membrane.flow().current_energies_by_term();
     let mut nodal = vec![0.0; layout.len()];
     membrane.flow().decode(y, &mut nodal);
+    let Evaluated { fields, values } = diagnostics.at(membrane.flow(), &nodal);
     let state = StateRef::new(layout, &nodal);
     let length = state.length();
     let mut centre = start.centre;
@@ -56,6 +59,8 @@ pub fn frame(
         position: position[0].iter().zip(position[1]).map(|(x, y)| [*x, *y]).collect(),
         normal_velocity,
         density: pointwise[1..].to_vec(),
+        fields,
+        diagnostics: values,
     }
 }
 

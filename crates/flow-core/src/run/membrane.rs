@@ -15,14 +15,15 @@ pub const ANGLE: usize = 1;
 pub const CENTRE: Range<usize> = 2..4;
 
 /// Krylov iterations per solve, averaged, above which the automatic choice turns to the banded solver.
-const FOURIER_SERVES: f64 = 6.0;
+const FOURIER_SERVES: f64 = 3.0;
 
 /// A closed curve with densities under a gradient flow.
 #[derive(Debug)]
 pub struct Membrane {
     flow: GradientFlow,
     preconditioner: Preconditioner,
-    automatic: bool,
+    /// What the automatic choice turns to.
+    banded: Option<Preconditioner>,
     mean_iterations: f64,
     closure: Closure,
     crossings: Crossings,
@@ -42,7 +43,8 @@ impl Membrane {
         let nodes = flow.layout().nodes();
         Self {
             preconditioner: Preconditioner::new(solver, &mut flow),
-            automatic: solver == LinearSolver::Auto && Preconditioner::banded_exists(&flow),
+            banded: (solver == LinearSolver::Auto && Preconditioner::banded_exists(&flow))
+                .then(|| Preconditioner::new(LinearSolver::Banded, &mut flow)),
             mean_iterations: 0.0,
             invariants: Invariants::new(&mut flow),
             closure: Closure::graded(nodes, flow.grading().cloned()),
@@ -170,9 +172,10 @@ impl Problem for Membrane {
 
     fn krylov_feedback(&mut self, iterations: usize) -> bool {
         self.mean_iterations += 0.1 * (iterations as f64 - self.mean_iterations);
-        if self.automatic && self.mean_iterations > FOURIER_SERVES {
-            self.automatic = false;
-            self.preconditioner = Preconditioner::new(LinearSolver::Banded, &mut self.flow);
+        if self.mean_iterations > FOURIER_SERVES
+            && let Some(banded) = self.banded.take()
+        {
+            self.preconditioner = banded;
             return true;
         }
         false

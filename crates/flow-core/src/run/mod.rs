@@ -1,5 +1,7 @@
 //! From a scene to a finished run.
 
+mod diagnostics;
+mod energy_density;
 mod energy_terms;
 mod equilibrium;
 mod frames;

@@ -45,8 +45,9 @@ pub fn predict(scene: &Scene) -> Result<Prediction, SetupError> {
         Frames::At { times } => times.len(),
     } as f64
         + 1.0;
-    // Curvature, metric, velocity, two positions and the densities.
-    let file_bytes = 8.0 * frames * (layout.nodes() * (5 + layout.densities())) as f64;
+    // Curvature, metric, velocity, two positions, the densities and what the scene asks for.
+    let fields = 5 + layout.densities() + record.fields.len();
+    let file_bytes = 8.0 * frames * (layout.nodes() * fields) as f64;
     let decades = (scene.time.end / time).log10().max(0.0);
     let finer = (1e-5 / scene.accuracy.tolerance).powf(0.2);
     Ok(Prediction {

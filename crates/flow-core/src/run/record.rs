@@ -35,6 +35,10 @@ pub struct Frame {
     pub normal_velocity: Vec<f64>,
     /// Densities, in the order of [`Record::densities`].
     pub density: Vec<Vec<f64>>,
+    /// Fields that the scene asks for, in the order of [`Record::fields`].
+    pub fields: Vec<Vec<f64>>,
+    /// Values that come with a term of the scene, in the order of [`Record::diagnostics`].
+    pub diagnostics: Vec<f64>,
 }
 
 /// One entry per accepted step.
@@ -52,6 +56,22 @@ pub struct StepLog {
     pub order: Vec<u8>,
     /// Rejected attempts before this step was accepted, by cause.
     pub rejections: Vec<Rejections>,
+}
+
+impl StepLog {
+    /// An empty log with room for `steps` steps.
+    #[must_use]
+    pub fn with_room(steps: usize) -> Self {
+        let column = || Vec::with_capacity(steps);
+        Self {
+            time: column(),
+            size: column(),
+            energy: column(),
+            dissipation: column(),
+            order: Vec::with_capacity(steps),
+            rejections: Vec::with_capacity(steps),
+        }
+    }
 }
 
 /// Why a run stopped.
@@ -108,6 +128,11 @@ pub struct Record {
     pub energy_terms: Vec<String>,
     /// Names of the densities.
     pub densities: Vec<String>,
+    /// Names of the fields that the scene asks for (`[output] fields`).
+    pub fields: Vec<String>,
+    /// Names of the values per frame that come with a term. With a membrane term under the L² flow: the distances
+    /// in L²(dσ) `incompressible_distance`, of ρ from 1 + ερ̄, and `velocity_residual`, of V from 𝓘V̂.
+    pub diagnostics: Vec<String>,
     /// Saved states, in time order; the first is the initial state, the last the final one.
     pub frames: Vec<Frame>,
     /// The log of accepted steps.

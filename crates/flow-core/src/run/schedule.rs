@@ -29,7 +29,7 @@ mod tests {
     #[test]
     fn times_increase_and_stay_inside() {
         for spacing in [Spacing::Linear, Spacing::Log] {
-            let output = Output { frames: Frames::Spaced { frames: 5, spacing } };
+            let output = Output { frames: Frames::Spaced { frames: 5, spacing }, fields: Vec::new() };
             let times = frame_times(&output, 10.0);
             assert_eq!(times.len(), 4);
             assert!(times.windows(2).all(|pair| pair[0] < pair[1]));

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::diagnostics::Diagnostics;
 use super::energy_terms::{Initial, energy_terms};
 use super::grading::{grading, resample};
 use super::membrane::Membrane;
@@ -25,6 +26,8 @@ pub struct Setup {
     pub state: Vec<f64>,
     /// Where the initial curve lies.
     pub placement: Placement,
+    /// What frames hold on request.
+    pub diagnostics: Diagnostics,
     /// Gap of the initial curve before it was closed.
     pub closure_defect: f64,
 }
@@ -51,6 +54,7 @@ impl Setup {
         let area = area(&state, layout, &curve, grading);
         let initial = Initial { length: initial_length, area };
         let terms = energy_terms(scene, initial, nodes)?;
+        let diagnostics = Diagnostics::new(scene, initial, layout, &derivative)?;
         let energy = EnergySum::new(terms, layout, &grid, &derivative);
         let map = FlowMap::new(layout, &grid, &derivative);
         let normal = normal_mobility(scene.flow.normal_mobility, &grid, &derivative);
@@ -59,7 +63,7 @@ impl Setup {
         let solver = linear_solver(scene.accuracy.linear_solver);
         let membrane = Membrane::new(flow, solver, curve.turning_number, curve.angle);
         let placement = Placement { angle: curve.angle, centre: curve.centre };
-        Ok(Self { membrane, state, placement, closure_defect })
+        Ok(Self { membrane, state, placement, diagnostics, closure_defect })
     }
 }
 

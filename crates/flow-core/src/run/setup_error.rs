@@ -45,6 +45,12 @@ pub enum SetupError {
     /// The grading is no metric on the nodes.
     #[error("`flow.grading`: {0}")]
     Grading(GradingError),
+    /// A field that the frames shall hold needs more nodes.
+    #[error(
+        "`output.fields`: \"{field}\" inverts H = −Δ_s + κ², which takes {fewest} nodes at least, and `accuracy.nodes` \
+         is {nodes}; try nodes = 128, or drop the field"
+    )]
+    TooFewNodesForField { field: &'static str, nodes: usize, fewest: usize },
     /// A derivative of an expression is too large.
     #[error("`{key}`: {fault}")]
     Expression { key: &'static str, fault: ExpressionError },

@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 use std::time::Instant;
 
+use super::diagnostics::Diagnostics;
 use super::equilibrium::Equilibrium;
 use super::frames::{Start, frame};
 use super::membrane::Membrane;
@@ -17,6 +18,8 @@ use crate::integrator::{
     Adaptive, AdaptiveOptions, Bdf, Counters, Finish, INTEGRALS, Problem, StepReport, Stepper,
 };
 
+/// Steps that are logged without allocating; beyond, the room doubles now and then.
+const STEP_ROOM: usize = 4096;
 /// Part of the tolerance by which the energy balance of one step may be off.
 pub const ENERGY_TOLERANCE_SHARE: f64 = 0.01;
 
@@ -24,6 +27,7 @@ pub const ENERGY_TOLERANCE_SHARE: f64 = 0.01;
 #[derive(Debug)]
 pub struct Simulation {
     membrane: Membrane,
+    diagnostics: Diagnostics,
     integration: Adaptive<Bdf>,
     start: Start,
     end: f64,
@@ -57,7 +61,8 @@ impl Simulation {
     /// # Errors
     /// [`SetupError`] if the scene makes no initial state.
     pub fn new(scene: &Scene) -> Result<Self, SetupError> {
-        let Setup { mut membrane, mut state, placement, closure_defect } = Setup::new(scene)?;
+        let Setup { mut membrane, mut state, placement, mut diagnostics, closure_defect } =
+            Setup::new(scene)?;
         let finish = membrane.finish(0.0, &mut state);
         let Finish::Good { energy, dissipation, integral_rates } = finish else {
             return Err(not_finite(&mut membrane, &state));
@@ -66,7 +71,15 @@ impl Simulation {
             return Err(fault.into());
         }
         let start = Start { energy, angle: placement.angle, centre: placement.centre };
-        let first = frame(&mut membrane, 0.0, &mut state, [0.0; INTEGRALS], &start, Some(closure_defect));
+        let first = frame(
+            &mut membrane,
+            &mut diagnostics,
+            0.0,
+            &mut state,
+            [0.0; INTEGRALS],
+            &start,
+            Some(closure_defect),
+        );
         let allowed_crossings = first.crossings as usize;
         let mut counters = Counters::default();
         let clock = Instant::now();
@@ -87,8 +100,10 @@ impl Simulation {
             resolved_scene: scene.resolved(membrane.flow().layout().nodes()),
             energy_terms: membrane.flow().energy_terms().names().map(str::to_owned).collect(),
             densities: scene.density.iter().map(|density| density.name.clone()).collect(),
+            fields: diagnostics.field_names(),
+            diagnostics: diagnostics.value_names(),
             frames: vec![first],
-            steps: StepLog::default(),
+            steps: StepLog::with_room(STEP_ROOM),
             counters,
             stop_reason: StopReason::EndTime,
         };
@@ -106,6 +121,7 @@ impl Simulation {
             closure_defect,
             allowed_crossings: scene.flow.stop_on_contact.then_some(allowed_crossings),
             membrane,
+            diagnostics,
             record,
             stopped: None,
         })
@@ -184,6 +200,7 @@ impl Simulation {
             let integrals = self.integration.stepper().interpolate(time, &mut self.scratch);
             self.record.frames.push(frame(
                 &mut self.membrane,
+                &mut self.diagnostics,
                 time,
                 &mut self.scratch,
                 integrals,
@@ -201,6 +218,7 @@ impl Simulation {
             let integrals = self.integration.integrals();
             self.record.frames.push(frame(
                 &mut self.membrane,
+                &mut self.diagnostics,
                 time,
                 &mut self.scratch,
                 integrals,

@@ -17,6 +17,8 @@ pub fn record(frames: usize, nodes: usize, densities: &[&str]) -> Record {
         resolved_scene: "nodes = 512\n".to_owned(),
         energy_terms: vec!["agents".to_owned(), "length".to_owned()],
         densities: densities.iter().map(|&name| name.to_owned()).collect(),
+        fields: densities.iter().map(|&name| format!("force of {name}")).collect(),
+        diagnostics: densities.iter().map(|&name| format!("distance of {name}")).collect(),
         frames: times.iter().map(|&time| frame(time, nodes, densities.len())).collect(),
         steps: StepLog {
             size: times.iter().map(|t| 0.1 * t).collect(),
@@ -72,6 +74,8 @@ fn frame(time: f64, n: usize, densities: usize) -> Frame {
             .map(|kappa| 0.15 + 0.7 * progress * 0.5 * (1.0 - (2.0 * (kappa - 0.6)).tanh()) + 0.1 * k as f64);
         frame.density.push(density.collect());
         frame.mass.push(0.5 * frame.length);
+        frame.fields.push(frame.curvature.iter().map(|kappa| kappa * progress).collect());
+        frame.diagnostics.push(progress);
     }
     frame
 }

@@ -1,16 +1,16 @@
-//! The local part of I − γJ with variable coefficients, by second differences on a grid of at most
+//! The local part of I − γJ with variable coefficients, by the compact fourth-order Laplacian on a grid of at most
 //! [`MOST_NODES`] nodes, corrected on both sides by the root of the ratio of the symbols.
 //!
-//! Second differences alone are a poor approximation of the Fourier derivative at high modes: the ratio of
-//! the constant-coefficient symbols takes that out. Modes that the coarse grid does not hold are left to the
-//! Fourier symbol. The tangential (non-local) part is of order 3 against 6 and left to the Krylov iteration.
+//! The ratio of the constant-coefficient symbols takes out what the differences miss at high modes. Modes that the
+//! coarse grid does not hold are left to the Fourier symbol. The tangential (non-local) part is of order 3 against 6
+//! and left to the Krylov iteration. See `THEORY.md`, eq. (O2).
 
-use std::f64::consts::TAU;
 use std::fmt::Debug;
 use std::sync::Arc;
 
 use super::super::gradient_flow::GradientFlow;
 use super::carries;
+use super::compact_laplacian::{DIFFERENCE, MASS, convolve, mass_symbol, neighbours, symbol_of_mass};
 use super::fourier::mobility_symbol;
 use super::local_spacing::LocalSpacing;
 use crate::geometry::vectors::{mean, multiply};
@@ -19,10 +19,6 @@ use crate::operators::{CyclicBanded, FactorisationError};
 
 /// More nodes make the assembled sixth-order band inaccurate, and buy nothing.
 const MOST_NODES: usize = 1024;
-
-/// A and B of the compact fourth-order Laplacian A⁻¹B.
-const MASS: [f64; 3] = [1.0 / 12.0, 10.0 / 12.0, 1.0 / 12.0];
-const DIFFERENCE: [f64; 3] = [1.0, -2.0, 1.0];
 
 /// A banded approximate inverse acting on spectra.
 pub trait Banded: Debug + Send {
@@ -87,9 +83,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
             keeps_mean: [true; F],
             local: grading.map(|grading| LocalSpacing::new(grading, coarse)),
             matrix: CyclicBanded::new(coarse * F),
-            mass: (0..grid.modes())
-                .map(|mode| 1.0 - (0.5 * TAU * mode as f64 / coarse as f64).sin().powi(2) / 3.0)
-                .collect(),
+            mass: (0..grid.modes()).map(|mode| mass_symbol(mode, coarse)).collect(),
             before: vec![1.0; F * grid.modes()],
             after: vec![1.0; F * grid.modes()],
             coefficients: vec![0.0; (F + F * (F + 1) / 2) * coarse],
@@ -157,7 +151,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
             for mode in 0..modes.min(self.fine_modes) {
                 let exact = flow.grid_and_derivative().1.minus_laplacian()[mode];
                 let mass = self.mass[mode];
-                let difference = 12.0 * (coarse as f64).powi(2) * (1.0 - mass) / mass;
+                let difference = symbol_of_mass(mass, coarse);
                 let [band, right] = Self::diagonal_symbols(flow, field, mean, gamma, [difference, exact]);
                 let (power, root) = (if field == 0 { mass * mass } else { mass }, (band / right).sqrt());
                 self.before[field * modes + mode] = power * root;
@@ -267,7 +261,9 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
 
 impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
     fn modes(&self) -> usize {
-        self.grid.modes()
+        let modes = self.grid.modes();
+        // The sawtooth of a coarser grid has a sine part, which that grid does not see.
+        if modes < self.fine_modes { modes - 1 } else { modes }
     }
 
     fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> Result<(), FactorisationError> {
@@ -283,9 +279,9 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
     }
 
     fn apply(&mut self, spectra: &mut [Complex64]) {
-        let low = self.grid.modes();
+        let (modes, low) = (self.grid.modes(), self.modes());
         for field in 0..F {
-            let factors = &self.before[field * low..(field + 1) * low];
+            let factors = &self.before[field * modes..][..low];
             let spectrum = &spectra[field * self.fine_modes..(field + 1) * self.fine_modes];
             self.spectrum.fill(Complex64::default());
             for ((target, value), factor) in self.spectrum.iter_mut().zip(spectrum).zip(factors) {
@@ -309,7 +305,7 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
                 multiply(&mut self.values, &local.weight);
             }
             self.grid.transform(&self.values, &mut self.spectrum);
-            let factors = &self.after[field * low..(field + 1) * low];
+            let factors = &self.after[field * modes..][..low];
             let spectrum = &mut spectra[field * self.fine_modes..(field + 1) * self.fine_modes];
             // Where J makes no mean, its local part does: the mean stays as it was.
             let kept = usize::from(self.keeps_mean[field]);
@@ -318,20 +314,4 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
             }
         }
     }
-}
-
-/// The node before `i`, `i` and the node after it.
-fn neighbours(i: usize, nodes: usize) -> [usize; 3] {
-    [(i + nodes - 1) % nodes, i, (i + 1) % nodes]
-}
-
-/// Stencil of a product with A.
-fn convolve<const N: usize, const M: usize>(stencil: &[f64; N]) -> [f64; M] {
-    let mut product = [0.0; M];
-    for (shift, weight) in MASS.iter().enumerate() {
-        for (k, value) in stencil.iter().enumerate() {
-            product[shift + k] += weight * value;
-        }
-    }
-    product
 }

@@ -1,6 +1,7 @@
 //! Approximate inverses of I − γJ, J = −𝓚 Hess `𝓕_h`. See `THEORY.md`, section 5.
 
 mod banded;
+mod compact_laplacian;
 mod dense;
 mod fourier;
 mod length_coupling;

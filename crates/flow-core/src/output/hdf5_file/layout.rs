@@ -82,7 +82,7 @@ pub(super) struct NamedValues {
     pub slot: fn(&mut Frame) -> &mut Vec<f64>,
 }
 
-/// Values per energy term and per density.
+/// Values per energy term and per density, and those that come with a term.
 pub(super) static NAMED_VALUES: &[NamedValues] = &[
     NamedValues {
         group: "energy_terms",
@@ -99,5 +99,43 @@ pub(super) static NAMED_VALUES: &[NamedValues] = &[
         names: |record| &record.densities,
         get: |frame| &frame.mass,
         slot: |frame| &mut frame.mass,
+    },
+    NamedValues {
+        group: "diagnostics",
+        long_name: "distance, in the square mean over the arc length,",
+        units: "unit_of_the_field length_unit0.5",
+        names: |record| &record.diagnostics,
+        get: |frame| &frame.diagnostics,
+        slot: |frame| &mut frame.diagnostics,
+    },
+];
+
+/// A group with one field per name, each with one value per frame and node.
+pub(super) struct NamedFields {
+    pub group: &'static str,
+    pub long_name: &'static str,
+    pub units: &'static str,
+    pub names: fn(&Record) -> &Vec<String>,
+    pub get: fn(&Frame) -> &Vec<Vec<f64>>,
+    pub slot: fn(&mut Frame) -> &mut Vec<Vec<f64>>,
+}
+
+/// Densities, and fields that the scene asks for.
+pub(super) static NAMED_FIELDS: &[NamedFields] = &[
+    NamedFields {
+        group: "density",
+        long_name: "density of",
+        units: "density_unit",
+        names: |record| &record.densities,
+        get: |frame| &frame.density,
+        slot: |frame| &mut frame.density,
+    },
+    NamedFields {
+        group: "fields",
+        long_name: "field",
+        units: "unit_of_the_field",
+        names: |record| &record.fields,
+        get: |frame| &frame.fields,
+        slot: |frame| &mut frame.fields,
     },
 ];

@@ -24,6 +24,8 @@ pub(super) fn write(file: &File, record: &Record) -> Result<(), StorageError> {
     write_number(file, "text_checksum", &checksum(record))?;
     write_names(file, "energy_terms", &record.energy_terms)?;
     write_names(file, "densities", &record.densities)?;
+    write_names(file, "fields", &record.fields)?;
+    write_names(file, "diagnostics", &record.diagnostics)?;
     // Tells xarray which variables are coordinates.
     write_text(file, "coordinates", "time parameter")?;
     write_text(file, "curveflow_version", env!("CARGO_PKG_VERSION"))?;
@@ -49,7 +51,9 @@ pub(super) fn rejections_name(cause: &str) -> String {
 /// FNV-1a of every text of the record. HDF5 keeps texts in a heap that has no checksum of its own.
 pub(super) fn checksum(record: &Record) -> u64 {
     let texts = texts(record).map(|(_, value)| value);
-    let names = record.energy_terms.iter().chain(&record.densities).map(String::as_str);
+    let names =
+        record.energy_terms.iter().chain(&record.densities).chain(&record.fields).chain(&record.diagnostics);
+    let names = names.map(String::as_str);
     let bytes = texts.into_iter().chain(names).flat_map(|text| text.bytes().chain([0]));
     bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }

@@ -7,7 +7,9 @@ use std::path::Path;
 use hdf5_metno::types::VarLenUnicode;
 use hdf5_metno::{Error, File, Group, H5Type, Result as Hdf5Result};
 
-use super::layout::{CAUSES, CONVENTIONS, COUNTERS, FRAME_VALUES, NAMED_VALUES, NODAL_FIELDS, STEP_VALUES};
+use super::layout::{
+    CAUSES, CONVENTIONS, COUNTERS, FRAME_VALUES, NAMED_FIELDS, NAMED_VALUES, NODAL_FIELDS, STEP_VALUES,
+};
 use super::provenance::{checksum, rejections_name};
 use crate::output::{Operation, StorageError};
 use crate::run::{Counters, Frame, Record, Rejections, StepLog, StopReason};
@@ -65,6 +67,8 @@ impl Content {
             resolved_scene: self.text("resolved_scene")?,
             energy_terms: self.names("energy_terms")?,
             densities: self.names("densities")?,
+            fields: self.names("fields")?,
+            diagnostics: self.names("diagnostics")?,
             frames: Vec::new(),
             steps: self.steps()?,
             counters: self.counters()?,
@@ -97,9 +101,11 @@ impl Content {
         }
         let position = self.values("position", Some(count * nodes * 2))?;
         rows(&mut frames, &position, nodes * 2, |frame, row| frame.position = row.as_chunks().0.to_vec());
-        for name in &record.densities {
-            let values = self.values(&format!("density/{name}"), Some(count * nodes))?;
-            rows(&mut frames, &values, nodes, |frame, row| frame.density.push(row.to_vec()));
+        for list in NAMED_FIELDS {
+            for name in (list.names)(record) {
+                let values = self.values(&format!("{}/{name}", list.group), Some(count * nodes))?;
+                rows(&mut frames, &values, nodes, |frame, row| (list.slot)(frame).push(row.to_vec()));
+            }
         }
         Ok(frames)
     }

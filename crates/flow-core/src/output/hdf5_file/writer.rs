@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use hdf5_metno::{File, file::LibraryVersion};
 
 use super::dataset::{Axis, Meaning, axis, building, dataset, labelled_axis, write_text};
-use super::layout::{CAUSES, FRAME_VALUES, NAMED_VALUES, NODAL_FIELDS, STEP_VALUES};
+use super::layout::{CAUSES, FRAME_VALUES, NAMED_FIELDS, NAMED_VALUES, NODAL_FIELDS, STEP_VALUES};
 use super::provenance;
 use crate::output::{StorageError, atomic_file};
 use crate::run::{Frame, Record};
@@ -77,11 +77,13 @@ fn write_fields(file: &File, record: &Record, axes: [&Axis; 3]) -> Result<(), St
     let position = flat(record, |frame| frame.position.as_flattened());
     let meaning = Meaning { long_name: "position of the node", units: "length_unit" };
     dataset(file, "position", &[frame, node, component], &meaning, &position)?;
-    let group = file.create_group("density").map_err(building("density"))?;
-    for (i, name) in record.densities.iter().enumerate() {
-        let values = flat(record, |frame| &frame.density[i]);
-        let meaning = Meaning { long_name: &format!("density of {name}"), units: "density_unit" };
-        dataset(&group, name, &[frame, node], &meaning, &values)?;
+    for list in NAMED_FIELDS {
+        let group = file.create_group(list.group).map_err(building(list.group))?;
+        for (i, name) in (list.names)(record).iter().enumerate() {
+            let values = flat(record, |frame| (list.get)(frame)[i].as_slice());
+            let meaning = Meaning { long_name: &format!("{} {name}", list.long_name), units: list.units };
+            dataset(&group, name, &[frame, node], &meaning, &values)?;
+        }
     }
     Ok(())
 }
@@ -117,17 +119,19 @@ fn flat<'a>(record: &'a Record, field: impl Fn(&'a Frame) -> &'a [f64]) -> Vec<f
 /// A file is a set of rectangles: every frame has the same sizes, every step an entry in each list.
 fn check_rectangular(record: &Record) -> Result<(), StorageError> {
     let n = record.nodes();
-    let (terms, densities) = (record.energy_terms.len(), record.densities.len());
     for (index, frame) in record.frames.iter().enumerate() {
-        check("energy_terms", index, frame.energy_terms.len(), terms)?;
-        check("mass", index, frame.mass.len(), densities)?;
-        check("density", index, frame.density.len(), densities)?;
+        for list in NAMED_VALUES {
+            check(list.group, index, (list.get)(frame).len(), (list.names)(record).len())?;
+        }
+        for list in NAMED_FIELDS {
+            check(list.group, index, (list.get)(frame).len(), (list.names)(record).len())?;
+            for field in (list.get)(frame) {
+                check(list.group, index, field.len(), n)?;
+            }
+        }
         check("position", index, frame.position.len(), n)?;
         for entry in NODAL_FIELDS {
             check(entry.name, index, (entry.get)(frame).len(), n)?;
-        }
-        for density in &frame.density {
-            check("density", index, density.len(), n)?;
         }
     }
     let steps = record.steps.time.len();

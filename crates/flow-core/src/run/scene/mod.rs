@@ -51,6 +51,6 @@ pub use energy::{
 pub use error::{Bound, Fault, Place, Problem, SceneError};
 pub use flow::{Flow, Gauge, NormalMobility};
 pub use formula::Formula;
-pub use output::{Frames, Output, Spacing};
+pub use output::{Frames, Output, OutputField, Spacing};
 pub use points::PointsError;
 pub use time::Time;

@@ -17,6 +17,9 @@ pub struct Output {
     /// When to save a state; the initial and the final one are always saved.
     #[serde(flatten)]
     pub frames: Frames,
+    /// Fields to save besides those that every frame holds.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub fields: Vec<OutputField>,
 }
 
 /// When to save a state.
@@ -48,9 +51,28 @@ names! {
     }
 }
 
+names! {
+    /// A field that frames hold on request. Fluxes and tangential velocities live at the flux points of the derivative
+    /// family: the nodes for `fourier`, else the middle between a node and the next.
+    pub enum OutputField {
+        /// The force f on the normal motion, before the mobility.
+        NormalForce = "normal-force",
+        /// The tangential velocity W of the gauge, at the flux points.
+        TangentialVelocity = "tangential-velocity",
+        /// ρ̄ = −H⁻¹(κV̂) with the force V̂ of all terms but the membrane's: an incompressible membrane of
+        /// compressibility ε has the density 1 + ερ̄.
+        ExcessDensity = "excess-density",
+        /// −∇_sρ̄ in the direction of the tangent, at the flux points.
+        MembraneFlux = "membrane-flux",
+        /// Energy per length of the local terms: not of functions of the length or of the positions.
+        EnergyDensity = "energy-density",
+    }
+}
+
 impl Default for Output {
     fn default() -> Self {
-        Self { frames: Frames::Spaced { frames: DEFAULT_FRAMES, spacing: Spacing::Linear } }
+        let frames = Frames::Spaced { frames: DEFAULT_FRAMES, spacing: Spacing::Linear };
+        Self { frames, fields: Vec::new() }
     }
 }
 
@@ -58,6 +80,7 @@ impl Output {
     /// `end` is the end time, if that is known.
     pub(super) fn read(mut section: Section<'_>, end: Option<f64>) -> Option<Self> {
         let (frames, spacing, times) = (section.get("frames"), section.get("spacing"), section.get("times"));
+        let fields = section.get("fields").map_or(Some(Vec::new()), |entry| read_fields(&entry));
         let count = frames.as_ref().map_or(Some(DEFAULT_FRAMES), read_count);
         let spaced = spacing.as_ref().map_or(Some(Spacing::Linear), |entry| entry.choice(&[]));
         if times.is_some() {
@@ -71,8 +94,21 @@ impl Output {
             Some(times) => Frames::At { times: read_times(&times, end)? },
             None => Frames::Spaced { frames: count?, spacing: spaced? },
         };
-        Some(Self { frames })
+        Some(Self { frames, fields: fields? })
     }
+}
+
+/// The names in order, each once.
+fn read_fields(entry: &Entry<'_>) -> Option<Vec<OutputField>> {
+    let list = entry.list("a list of names")?;
+    let all: Vec<Option<OutputField>> = list.iter().map(|entry| entry.choice(&[])).collect();
+    let mut fields = Vec::new();
+    for field in all.into_iter().collect::<Option<Vec<_>>>()? {
+        if !fields.contains(&field) {
+            fields.push(field);
+        }
+    }
+    Some(fields)
 }
 
 fn read_count(entry: &Entry<'_>) -> Option<usize> {

@@ -1,0 +1,118 @@
+//! Fields and values that frames hold on request.
+#![allow(clippy::unwrap_used)] // a failed test may panic
+
+use std::f64::consts::TAU;
+
+use flow_core::run::scene::OutputField;
+use flow_core::run::{Frame, Quiet, Record, Scene, SetupError, run};
+
+const ALL: &str = "output = { frames = 2, fields = ['normal-force', 'tangential-velocity', 'excess-density', \
+                   'membrane-flux', 'energy-density', 'normal-force'] }";
+
+fn record(text: &str) -> Record {
+    run(&Scene::parse(text, "test.toml").unwrap(), &mut Quiet).unwrap()
+}
+
+fn field<'a>(record: &Record, frame: &'a Frame, field: OutputField) -> &'a [f64] {
+    let index = record.fields.iter().position(|name| name == field.name()).unwrap();
+    &frame.fields[index]
+}
+
+fn assert_all(values: &[f64], expected: f64, tolerance: f64) {
+    assert!(values.iter().all(|value| (value - expected).abs() < tolerance), "{values:?} ≠ {expected}");
+}
+
+/// On a circle of radius R bending has the force 1/(2R³), H⁻¹1 = R², hence ρ̄ = −1/(2R²), and no flux.
+#[test]
+fn a_circle_has_the_fields_of_a_circle() {
+    let record = record(&format!(
+        "
+        curve = {{ shape = 'circle', radius = 1.3 }}
+        energy.bending.rigidity = 1.0
+        time = {{ end = 0.1, stop_at_equilibrium = false }}
+        accuracy.nodes = 64
+        {ALL}
+        "
+    ));
+    assert_eq!(record.fields.len(), OutputField::ALL.len(), "each once: {:?}", record.fields);
+    assert!(record.diagnostics.is_empty());
+    assert_eq!(record.frames.len(), 3);
+    for frame in &record.frames {
+        let radius = frame.length / TAU;
+        let at = |name| field(&record, frame, name);
+        assert_all(at(OutputField::NormalForce), 0.5 / radius.powi(3), 1e-6);
+        assert_all(at(OutputField::TangentialVelocity), 0.0, 1e-6);
+        assert_all(at(OutputField::ExcessDensity), -0.5 / (radius * radius), 1e-6);
+        assert_all(at(OutputField::MembraneFlux), 0.0, 1e-6);
+        assert_all(at(OutputField::EnergyDensity), 0.5 / (radius * radius), 1e-6);
+    }
+}
+
+/// Local terms of every kind; functions of the length and of the positions are not local.
+#[test]
+fn the_energy_density_integrates_to_the_local_terms() {
+    let record = record(&format!(
+        "
+        curve.shape = 'trillium'
+        density = [{{ name = 'protein', initial = '0.5 + 0.1*cos(4*pi*s)', mobility = 'diffusion' }}]
+        energy.bending.rigidity = 0.7
+        energy.regularization.delta = 0.1
+        energy.local.expression = '0.1*protein_sigma^2 + 0.05*kappa_sigma^2*protein + protein^2'
+        energy.length = {{ penalty = 3.0, target_ratio = 1.1 }}
+        energy.area.pressure = 0.2
+        time = {{ end = 1e-3, stop_at_equilibrium = false }}
+        accuracy.nodes = 256
+        {ALL}
+        "
+    ));
+    for frame in &record.frames {
+        let density = field(&record, frame, OutputField::EnergyDensity);
+        let total = frame.length * density.iter().sum::<f64>() / density.len() as f64;
+        let terms = record.energy_terms.iter().zip(&frame.energy_terms);
+        let local: f64 = terms
+            .filter(|(name, _)| !["length", "area"].contains(&name.as_str()))
+            .map(|(_, energy)| energy)
+            .sum();
+        // Slopes of the sawtooth, which 256 nodes leave on the trillium, are in the energy but not in its density.
+        assert!((total / local - 1.0).abs() < 1e-6, "{total} ≠ {local}");
+    }
+}
+
+/// ρ = 1 on a circle is ε/(2R²) above the manifold, and V = 1/(2R³), where 𝓘V̂ = 0.
+#[test]
+fn a_membrane_knows_its_distance_from_the_incompressible_one() {
+    let (radius, epsilon) = (1.3_f64, 0.02);
+    let text = format!(
+        "
+        curve = {{ shape = 'circle', radius = {radius:?} }}
+        density = [{{ name = 'membrane', initial = 1.0, mobility = 'diffusion' }}]
+        energy.bending.rigidity = 1.0
+        energy.membrane = {{ density = 'membrane', epsilon = {epsilon:?} }}
+        time.end = 0.1
+        "
+    );
+    let record = record(&(text.clone() + "accuracy.nodes = 64\n"));
+    assert_eq!(record.diagnostics, ["incompressible_distance", "velocity_residual"]);
+    let [distance, residual] = record.frames[0].diagnostics[..] else { panic!("two values") };
+    let root = (TAU * radius).sqrt();
+    assert!((distance / root - 0.5 * epsilon / (radius * radius)).abs() < 1e-12, "{distance}");
+    assert!((residual / root - 0.5 / radius.powi(3)).abs() < 1e-12, "{residual}");
+    for other in ["accuracy.nodes = 16\n", "accuracy.nodes = 64\nflow.normal_mobility = 'area-preserving'\n"]
+    {
+        assert!(self::record(&(text.clone() + other)).diagnostics.is_empty(), "{other}");
+    }
+}
+
+#[test]
+fn fields_that_need_more_nodes_say_so() {
+    let text = "
+        curve = { shape = 'circle', radius = 1.0 }
+        energy.bending.rigidity = 1.0
+        time.end = 0.1
+        accuracy.nodes = 16
+        output.fields = ['normal-force', 'membrane-flux']
+        ";
+    let error = run(&Scene::parse(text, "test.toml").unwrap(), &mut Quiet).unwrap_err();
+    assert!(matches!(error, SetupError::TooFewNodesForField { nodes: 16, fewest: 21, .. }), "{error}");
+    assert!(error.to_string().contains("\"membrane-flux\""), "{error}");
+}
