@@ -1,9 +1,10 @@
-//! Decay of the modes of a circle under plain bending.
+//! Decay of the modes of a circle under each mobility, by runs and by the implicit operator.
 
 use std::f64::consts::TAU;
 
-use curveflow_tests::{last, run, scene};
-use flow_core::run::Frame;
+use curveflow_tests::{assert_close, last, run, scene};
+use flow_core::integrator::Problem;
+use flow_core::run::{Frame, Setup};
 
 /// Amplitude of cos(nφ) in the radius, from the curvature: K = 2π + 2π(n² − 1)(η/R) cos(nφ) to first order.
 fn amplitude(frame: &Frame, mode: usize) -> f64 {
@@ -95,5 +96,35 @@ fn modes_of_a_circle_under_surface_diffusion_decay_at_the_known_rates() {
         let end = 1.0 / rate;
         let text = start(mode, end) + "flow.normal_mobility = 'surface-diffusion'\n";
         assert_decay(&text, mode, rate, end);
+    }
+}
+
+/// A circle at rest under bending and a length penalty, 1/(2R²) = β(2πR − target): the implicit operator −𝓚 Hess 𝓕ₕ is
+/// the Jacobian there, and each mode is an eigenvector of it, with the rate of fixed length −(n² − 1)²/R⁴.
+#[test]
+fn the_implicit_operator_has_the_known_rates_at_a_circle_at_rest() {
+    let (radius, penalty) = (1.5, 7.0);
+    let target = TAU * radius - 0.5 / (radius * radius * penalty);
+    let setup = Setup::new(&scene(&format!(
+        "
+        curve = {{ shape = 'circle', radius = {radius:?} }}
+        energy.bending.rigidity = 1.0
+        energy.length = {{ penalty = {penalty:?}, target = {target:?} }}
+        time.end = 1.0
+        accuracy = {{ tolerance = 1e-6, nodes = 64 }}
+        "
+    )));
+    let Setup { mut membrane, state, .. } = setup.expect("a circle");
+    let (mut rate, mut motion) = (vec![0.0; state.len()], vec![0.0; state.len()]);
+    membrane.linearise(&state, &mut rate);
+    assert!(rate.iter().all(|rate| rate.abs() < 1e-10), "at rest");
+    for mode in 2..=8_usize {
+        motion.fill(0.0);
+        motion[2 * mode] = 1.0;
+        membrane.jacobian_product(&motion, &mut rate);
+        let exact = -((mode * mode) as f64 - 1.0).powi(2) / radius.powi(4);
+        assert_close(rate[2 * mode], exact, 1e-11);
+        rate[2 * mode] = 0.0;
+        assert!(rate.iter().all(|rest| rest.abs() < 1e-9 * exact.abs()), "mode {mode} is an eigenvector");
     }
 }
