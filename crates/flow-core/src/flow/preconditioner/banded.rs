@@ -52,6 +52,8 @@ type Row<const F: usize> = [f64; F];
 #[derive(Debug)]
 struct LocalPart<const F: usize, const B: usize> {
     fine_modes: usize,
+    /// The nodes of the flow, unless they are those of the band.
+    fine_grid: Option<PeriodicGrid>,
     grid: PeriodicGrid,
     /// Whether 𝓚 makes no mean, by field.
     keeps_mean: [bool; F],
@@ -80,6 +82,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         let fine_modes = nodes / 2 + 1;
         Self {
             fine_modes,
+            fine_grid: (nodes != coarse).then(|| PeriodicGrid::new(nodes)),
             keeps_mean: [true; F],
             local: grading.map(|grading| LocalSpacing::new(grading, coarse)),
             matrix: CyclicBanded::new(coarse * F),
@@ -111,14 +114,14 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         for a in 0..F {
             for b in 0..=a {
                 let range = block * coarse..(block + 1) * coarse;
-                if self.fine_modes == self.grid.modes() {
-                    self.coefficients[range].copy_from_slice(flow.energy_terms().jet().second(a, b));
-                } else {
-                    let mut grid = flow.grid_and_derivative().0.clone();
-                    grid.transform(flow.energy_terms().jet().second(a, b), &mut self.fine_spectrum);
+                let second = flow.energy_terms().jet().second(a, b);
+                if let Some(fine) = &mut self.fine_grid {
+                    fine.transform(second, &mut self.fine_spectrum);
                     self.spectrum.fill(Complex64::default());
                     self.spectrum[..low].copy_from_slice(&self.fine_spectrum[..low]);
                     self.grid.synthesise(&self.spectrum, &mut self.coefficients[range]);
+                } else {
+                    self.coefficients[range].copy_from_slice(second);
                 }
                 block += 1;
             }
@@ -147,7 +150,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         let (coarse, modes) = (self.grid.nodes(), self.grid.modes());
         for field in 0..F {
             let second = flow.energy_terms().jet().second(field, field);
-            let mean = (mean(second)).max(0.0);
+            let mean = mean(second).max(0.0);
             for mode in 0..modes.min(self.fine_modes) {
                 let exact = flow.grid_and_derivative().1.minus_laplacian()[mode];
                 let mass = self.mass[mode];
