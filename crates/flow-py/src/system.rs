@@ -25,6 +25,20 @@ impl System {
         self.membrane.lock().map_err(|_| PyRuntimeError::new_err("an earlier call on this system panicked"))
     }
 
+    /// Calls `function` with two arrays of the size of the state.
+    fn with_arrays(
+        &self,
+        from: &PyReadonlyArray1<'_, f64>,
+        to: &mut PyReadwriteArray1<'_, f64>,
+        function: impl FnOnce(&mut Membrane, &[f64], &mut [f64]),
+    ) -> PyResult<()> {
+        let (from, to) = (from.as_slice()?, to.as_slice_mut()?);
+        self.check(from.len())?;
+        self.check(to.len())?;
+        function(&mut *self.membrane()?, from, to);
+        Ok(())
+    }
+
     fn check(&self, length: usize) -> PyResult<()> {
         if length == self.initial.len() {
             return Ok(());
@@ -60,20 +74,12 @@ impl System {
 
     /// f(y) into `rate`.
     fn rate(&self, y: PyReadonlyArray1<'_, f64>, mut rate: PyReadwriteArray1<'_, f64>) -> PyResult<()> {
-        let (y, rate) = (y.as_slice()?, rate.as_slice_mut()?);
-        self.check(y.len())?;
-        self.check(rate.len())?;
-        self.membrane()?.rate(y, rate);
-        Ok(())
+        self.with_arrays(&y, &mut rate, Membrane::rate)
     }
 
     /// Freezes J at y; f(y) into `rate`.
     fn linearise(&self, y: PyReadonlyArray1<'_, f64>, mut rate: PyReadwriteArray1<'_, f64>) -> PyResult<()> {
-        let (y, rate) = (y.as_slice()?, rate.as_slice_mut()?);
-        self.check(y.len())?;
-        self.check(rate.len())?;
-        self.membrane()?.linearise(y, rate);
-        Ok(())
+        self.with_arrays(&y, &mut rate, Membrane::linearise)
     }
 
     /// Jv into `out`.
@@ -82,11 +88,7 @@ impl System {
         v: PyReadonlyArray1<'_, f64>,
         mut out: PyReadwriteArray1<'_, f64>,
     ) -> PyResult<()> {
-        let (v, out) = (v.as_slice()?, out.as_slice_mut()?);
-        self.check(v.len())?;
-        self.check(out.len())?;
-        self.membrane()?.jacobian_product(v, out);
-        Ok(())
+        self.with_arrays(&v, &mut out, Membrane::jacobian_product)
     }
 
     /// Prepares an approximate inverse of I − γJ; false if that fails.

@@ -9,7 +9,7 @@ use bytemuck::{cast_slice, cast_slice_mut};
 use super::curve_fields::CurveFields;
 use crate::geometry::vectors::{
     add_product, add_real_symbol, add_scaled, apply_real_symbol, apply_symbol, mean, mean_of_product,
-    multiply, multiply_by, multiply_by_conjugate, multiply_into,
+    multiply, multiply_by, multiply_by_conjugate, multiply_into, scale,
 };
 use crate::geometry::{Complex64, Grading, Layout, PeriodicGrid};
 use crate::operators::{Derivative, GradedLaplacian};
@@ -159,10 +159,8 @@ impl FlowMap {
     /// Tangential velocity W at the nodes for the normal velocity `v` (by the Fourier derivative in every
     /// family: it places the curve, it does not enter the energy).
     pub fn tangential_velocity(&mut self, at: &CurveFields, v: &[f64], w: &mut [f64]) {
-        let length = at.length();
-        for ((stretch, kappa), v) in self.product.iter_mut().zip(at.at_nodes(0)).zip(v) {
-            *stretch = -length * kappa * v;
-        }
+        multiply_into(&mut self.product, at.at_nodes(0), v);
+        scale(&mut self.product, -at.length());
         if let Some(graded) = &self.graded {
             let weight = graded.grading().weight();
             let mean = mean_of_product(weight, &self.product);
@@ -170,13 +168,7 @@ impl FlowMap {
             multiply(&mut self.product, weight);
         }
         self.grid.transform(&self.product, &mut self.spectrum);
-        self.spectrum[0] = Complex64::default();
-        for mode in 1..self.grid.modes() {
-            self.spectrum[mode] /= Complex64::new(0.0, self.grid.wave_number(mode));
-        }
-        if let Some(sawtooth) = self.grid.sawtooth_mode() {
-            self.spectrum[sawtooth] = Complex64::default();
-        }
+        self.grid.integrate(&mut self.spectrum);
         self.grid.synthesise(&self.spectrum, w);
         if let Some(graded) = &self.graded {
             let mean = mean_of_product(graded.grading().weight(), w);

@@ -139,10 +139,10 @@ impl SlopeEnergy {
             let spectrum = &motion_spectra[field * modes..(field + 1) * modes];
             match self.derivative.interpolation() {
                 None => self.spectrum.copy_from_slice(spectrum),
-                Some(symbol) => multiply(&mut self.spectrum, spectrum, symbol),
+                Some(symbol) => vectors::apply_symbol(&mut self.spectrum, spectrum, symbol),
             }
             self.grid.synthesise(&self.spectrum, &mut self.motion[self.layout.field(field)]);
-            multiply(&mut self.spectrum, spectrum, self.derivative.to_flux());
+            vectors::apply_symbol(&mut self.spectrum, spectrum, self.derivative.to_flux());
             let slopes = self.layout.field(fields + field);
             self.grid.synthesise(&self.spectrum, &mut self.motion[slopes.clone()]);
             let by_slope = &self.frozen_by_slope[self.layout.field(field)];
@@ -159,11 +159,7 @@ impl SlopeEnergy {
             self.product.fill(0.0);
             for other in 0..2 * fields {
                 let motion = &self.motion[self.layout.field(other)];
-                for ((product, second), motion) in
-                    self.product.iter_mut().zip(self.jet.second(variable, other)).zip(motion)
-                {
-                    *product += second * motion;
-                }
+                vectors::add_product(&mut self.product, self.jet.second(variable, other), motion);
             }
             if variable < fields {
                 self.weigh_product();
@@ -211,11 +207,5 @@ impl SlopeEnergy {
         for ((p, value), symbol) in p.iter_mut().zip(&self.spectrum).zip(self.derivative.to_flux()) {
             *p += value * symbol.conj() * scale;
         }
-    }
-}
-
-fn multiply(out: &mut [Complex64], values: &[Complex64], symbol: &[Complex64]) {
-    for ((out, value), symbol) in out.iter_mut().zip(values).zip(symbol) {
-        *out = value * symbol;
     }
 }
