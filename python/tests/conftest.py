@@ -30,4 +30,11 @@ def membrane() -> cf.Result:
 def endless() -> cf.Scene:
     """A scene that runs for longer than any test, in short steps."""
     scene = cf.Scene.shipped("three_fold_sharp")
-    return scene.with_values({"accuracy.tolerance": 1e-9, "time.stop_at_equilibrium": False, "time.end": 1e6})
+    return scene.with_values(
+        {
+            "accuracy.tolerance": 1e-10,
+            "accuracy.nodes": 8192,
+            "time.stop_at_equilibrium": False,
+            "time.end": 1e6,
+        }
+    )
