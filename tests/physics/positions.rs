@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use curveflow_tests::physics::fields::Interpolant;
 use curveflow_tests::{assert_close, bisection, largest_rise, last, run, scene, shipped};
 use flow_core::run::StopReason;
 
@@ -143,4 +144,42 @@ fn a_run_stops_on_contact_if_the_scene_says_so() {
     let record = run(&scene(&scene_text(false)));
     assert_eq!(record.stop_reason, StopReason::EndTime);
     assert!(record.frames.iter().any(|frame| frame.crossings > 0.0));
+}
+
+#[test]
+fn the_curve_moves_at_its_normal_velocity_wherever_it_points() {
+    for gauge in ["'scaled-arc-length'", "'graded'\ngrading = '1 + 0.4*cos(2*pi*s)'"] {
+        let record = run(&scene(&format!(
+            "
+            [curve]
+            shape = 'parametric'
+            x = '(1 + 0.3*cos(2*phi) + 0.2*sin(3*phi) + 0.1*sin(phi))*cos(phi + 1)'
+            y = '(1 + 0.3*cos(2*phi) + 0.2*sin(3*phi) + 0.1*sin(phi))*sin(phi + 1)'
+            [energy]
+            bending.rigidity = 1.0
+            length = {{ penalty = 5.0, target_ratio = 1.0 }}
+            [flow]
+            gauge = {gauge}
+            [time]
+            end = 0.1
+            stop_at_equilibrium = false
+            [accuracy]
+            tolerance = 1e-8
+            nodes = 128
+            [output]
+            times = [0.0399, 0.04, 0.0401]
+            "
+        )));
+        let [before, now, after] = [1, 2, 3].map(|frame| &record.frames[frame]);
+        let axis = |axis: usize| Interpolant::new(&now.position.iter().map(|x| x[axis]).collect::<Vec<_>>());
+        let slopes = [axis(0), axis(1)];
+        let largest = now.normal_velocity.iter().fold(0.0_f64, |largest, v| largest.max(v.abs()));
+        for (node, velocity) in now.normal_velocity.iter().enumerate() {
+            let s = node as f64 / now.position.len() as f64;
+            let [tx, ty] = [0, 1].map(|axis| slopes[axis].slope_at(s) / now.metric[node]);
+            let [x, y] = [0, 1].map(|axis| after.position[node][axis] - before.position[node][axis]);
+            let moved = (x * ty - y * tx) / (after.time - before.time);
+            assert!((moved - velocity).abs() < 1e-4 * largest, "{gauge}, node {node}: {moved} {velocity}");
+        }
+    }
 }

@@ -31,6 +31,8 @@ pub struct Membrane {
     tangential: Vec<f64>,
     closure_defect: f64,
     invariants: Invariants,
+    /// Mean tangent angle where the integrals start.
+    start_angle: f64,
     /// Time, angle and rate of the angle at the last accepted state; rate at the candidate.
     placed: [f64; 3],
     candidate_angle_rate: f64,
@@ -53,6 +55,7 @@ impl Membrane {
             turning_number,
             tangential: vec![0.0; nodes],
             closure_defect: 0.0,
+            start_angle: angle,
             placed: [0.0, angle, 0.0],
             candidate_angle_rate: 0.0,
         }
@@ -206,6 +209,6 @@ impl Problem for Membrane {
     }
 
     fn accepted(&mut self, time: f64, integrals: [f64; INTEGRALS]) {
-        self.placed = [time, integrals[ANGLE], self.candidate_angle_rate];
+        self.placed = [time, self.start_angle + integrals[ANGLE], self.candidate_angle_rate];
     }
 }
