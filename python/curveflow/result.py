@@ -99,6 +99,11 @@ class Result:
         return self._record.values("energy_balance")
 
     @cached_property
+    def remap_error(self) -> Array:
+        """Energy that changes of the nodes or of the gauge have added so far, shape (frame,)."""
+        return self._record.values("remap_error")
+
+    @cached_property
     def length(self) -> Array:
         """Length of the curve, shape (frame,)."""
         return self._record.values("length")

@@ -105,6 +105,47 @@ fn the_flow_does_not_depend_on_the_gauge() {
     }
 }
 
+#[test]
+fn switching_the_gauge_on_the_way_changes_nothing() {
+    for (scene, lobes, end, times) in
+        [("length_penalty", 3, "0.01", [0.002, 0.005]), ("three_fold", 2, "0.05", [0.01, 0.02])]
+    {
+        let (formula, _) = grading(lobes, 512);
+        let switches = format!(
+            "[{{ time = {}, gauge = 'graded', grading = '{formula}' }}, {{ time = {}, gauge = 'scaled-arc-length' }}]",
+            times[0], times[1]
+        );
+        let mut changes = vec![
+            ("accuracy.nodes", "512"),
+            ("accuracy.tolerance", "1e-8"),
+            ("time.stop_at_equilibrium", "false"),
+            ("time.end", end),
+        ];
+        let whole = run(&shipped(scene, &changes));
+        changes.push(("flow.switch", switches.as_str()));
+        let switched = run(&shipped(scene, &changes));
+        check_kept(&switched, scene);
+        assert_eq!(switched.counters.remaps, 2);
+        for time in times {
+            assert!(switched.steps.time.contains(&time), "a step ends at the switch");
+        }
+        let (a, b) = (last(&whole), last(&switched));
+        // Measured: rounding, and 1.2e-7, which is what the graded nodes miss of the fronts.
+        let error = (b.remap_error / b.energy).abs();
+        assert!(error > 0.0 && error < 1e-6, "{scene}: {error:.1e}");
+        assert!((a.energy / b.energy - 1.0).abs() < 2e-6, "{scene}: {} {}", a.energy, b.energy);
+        let gaps = a.position.iter().zip(&b.position).map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1]));
+        let gap = gaps.fold(0.0, f64::max) / a.length;
+        assert!(gap < 1e-6, "{scene}: {gap:.1e}");
+        println!(
+            "{scene}: energy {error:.1e}, image {gap:.1e}; steps {} {}",
+            whole.counters.steps, switched.counters.steps
+        );
+        let balance = |record: &Record| last(record).energy_balance.abs() / record.frames[0].energy;
+        assert!(balance(&switched) < 1e-6, "{scene}: {:.1e}", balance(&switched));
+    }
+}
+
 /// A grading for fronts of the density of `frame`, whose nodes are uniform: w = 1/ν(x(s)) with the density of nodes
 /// ν = (1 + a Σ exp(−(x − cᵢ)²/b²))/mean, as a Fourier series.
 fn crowded(frame: &Frame, height: f64, width: f64, harmonics: usize) -> String {

@@ -79,7 +79,7 @@ impl OneStep {
         Self {
             controller: Controller::new(formula.embedded_order()),
             formula,
-            integrals: Integrals::new(integral_rates),
+            integrals: Integrals::new(0.0, [0.0; INTEGRALS], integral_rates),
             norm,
             tolerance,
             time: 0.0,

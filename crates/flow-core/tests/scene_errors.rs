@@ -408,6 +408,21 @@ const MISTAKES: &[Mistake] = &[
     ),
     (
         "[time]",
+        "[[flow.switch]]\ntime = 0.3\ngauge = \"scaled-arc-length\"\n[[flow.switch]]\ntime = 0.2\ngauge = \"scaled-arc-length\"\n[time]",
+        &["line 22 | time = 0.2", "`flow.switch.1.time` must increase", "0.2 follows 0.3"],
+    ),
+    (
+        "[time]",
+        "[[flow.switch]]\ntime = -1.0\ngauge = \"scaled-arc-length\"\n[time]",
+        &["line 19 | time = -1.0", "`flow.switch.0.time`", "between 0 and 1"],
+    ),
+    (
+        "[time]",
+        "[[flow.switch]]\ntime = 0.1\n[time]",
+        &["line 18", "`flow.switch.0.gauge` is missing", "gauge = \"scaled-arc-length\""],
+    ),
+    (
+        "[time]",
         "[flow]\ngauge = \"graded\"\ngrading = \"1 + cos(phi)\"\n[time]",
         &["line 20 | grading", "`flow.grading`", "phi"],
     ),

@@ -95,6 +95,7 @@ impl Record {
             "energy" => |frame| frame.energy,
             "dissipation" => |frame| frame.dissipation,
             "energy_balance" => |frame| frame.energy_balance,
+            "remap_error" => |frame| frame.remap_error,
             "length" => |frame| frame.length,
             "area" => |frame| frame.area,
             "closure_defect" => |frame| frame.closure_defect,
@@ -167,6 +168,7 @@ impl Record {
         stats.set_item("krylov_iterations", counters.krylov_iterations)?;
         stats.set_item("factorisations", counters.factorisations)?;
         stats.set_item("solves", counters.solves)?;
+        stats.set_item("remaps", counters.remaps)?;
         stats.set_item("integration_seconds", counters.integration_seconds)?;
         Ok(stats)
     }

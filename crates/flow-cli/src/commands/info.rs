@@ -48,6 +48,7 @@ fn summary(record: &Record) -> Vec<(String, Value)> {
         row("energy_first", number(first.energy));
         row("energy_last", number(last.energy));
         row("dissipation_last", number(last.dissipation));
+        row("energy_balance", number(last.energy_balance));
         row("length_first", number(first.length));
         row("length_last", number(last.length));
         for (i, name) in record.densities.iter().enumerate() {
@@ -63,6 +64,10 @@ fn summary(record: &Record) -> Vec<(String, Value)> {
     row("krylov_iterations", json!(counters.krylov_iterations));
     row("factorisations", json!(counters.factorisations));
     row("solves", json!(counters.solves));
+    if counters.remaps > 0 {
+        row("remaps", json!(counters.remaps));
+        row("remap_error", number(record.frames.last().map_or(0.0, |last| last.remap_error)));
+    }
     let Rejections { error, solver, energy_rise, not_finite } = counters.rejections;
     row("rejections_error", json!(error));
     row("rejections_solver", json!(solver));

@@ -96,6 +96,12 @@ impl<S: Stepper> Adaptive<S> {
         &self.stepper
     }
 
+    /// The settings.
+    #[must_use]
+    pub fn options(&self) -> &AdaptiveOptions {
+        &self.options
+    }
+
     /// Work so far.
     #[must_use]
     pub fn counters(&self) -> &Counters {

@@ -60,6 +60,18 @@ impl Bdf {
         tolerance: f64,
         counters: &mut Counters,
     ) -> Self {
+        let integrals = Integrals::new(0.0, [0.0; INTEGRALS], integral_rates);
+        Self::starting(problem, y, integrals, tolerance, counters)
+    }
+
+    /// Starts at `y` and the time of `integrals`, which go on from their values.
+    pub fn starting(
+        problem: &mut dyn Problem,
+        y: &[f64],
+        integrals: Integrals,
+        tolerance: f64,
+        counters: &mut Counters,
+    ) -> Self {
         let size = y.len();
         let mut norm = ErrorNorm::new(problem);
         norm.rescale(problem, y);
@@ -70,11 +82,12 @@ impl Bdf {
         let step = 0.1 * tolerance.sqrt() / norm.norm(&rate).max(1e-280);
         let mut history = History::new(size);
         let before: Vec<f64> = y.iter().zip(&rate).map(|(y, rate)| y - step * rate).collect();
-        history.push(-step, &before);
-        history.push(0.0, y);
+        let time = integrals.time();
+        history.push(time - step, &before);
+        history.push(time, y);
         Self {
             history,
-            integrals: Integrals::new(integral_rates),
+            integrals,
             norm,
             newton: NewtonKrylov::new(size),
             tolerance: local_tolerance(tolerance),

@@ -21,10 +21,16 @@ pub struct Integrals {
 }
 
 impl Integrals {
-    /// Integrals that are zero at time 0, where the rates are `rates`.
+    /// Integrals with the values `values` at `time`, where the rates are `rates`.
     #[must_use]
-    pub fn new(rates: [f64; INTEGRALS]) -> Self {
-        Self { times: [0.0; POINTS], rates: [rates; POINTS], filled: 1, values: [[0.0; INTEGRALS]; 2] }
+    pub fn new(time: f64, values: [f64; INTEGRALS], rates: [f64; INTEGRALS]) -> Self {
+        Self { times: [time; POINTS], rates: [rates; POINTS], filled: 1, values: [values; 2] }
+    }
+
+    /// The last time.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.times[0]
     }
 
     /// Values at the last time.

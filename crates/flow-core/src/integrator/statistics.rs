@@ -50,6 +50,8 @@ pub struct Counters {
     pub factorisations: u64,
     /// Solves with such a factorisation.
     pub solves: u64,
+    /// Changes of the nodes or of the gauge.
+    pub remaps: u64,
     /// Seconds spent in the time integration, without start-up and output.
     pub integration_seconds: f64,
 }

@@ -49,6 +49,7 @@ pub fn frame(
         energy_terms,
         dissipation: rate.dissipation,
         energy_balance: rate.energy - start.energy + integrals[DISSIPATED],
+        remap_error: start.remap_error,
         length,
         area: enclosed_area(position, embedding.tangent(), length),
         mass: (0..layout.densities()).map(|density| state.mass(density)).collect(),
@@ -73,4 +74,6 @@ pub struct Start {
     pub angle: f64,
     /// Mean position at time 0.
     pub centre: [f64; 2],
+    /// Energy added by remaps since.
+    pub remap_error: f64,
 }

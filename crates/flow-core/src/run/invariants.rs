@@ -80,6 +80,12 @@ impl Invariants {
         Ok(gap)
     }
 
+    /// Keeps the values that `before` keeps.
+    pub fn follow(&mut self, before: &Self) {
+        self.masses.clone_from(&before.masses);
+        (self.length, self.area, self.taken) = (before.length, before.area, before.taken);
+    }
+
     fn restore_linear(&self, y: &mut [f64]) {
         for (density, (kept, mass)) in self.masses.iter().enumerate() {
             if *kept {

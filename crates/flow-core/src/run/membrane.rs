@@ -61,6 +61,13 @@ impl Membrane {
         }
     }
 
+    /// Goes on from where `before` stands at `time`, with what it keeps.
+    pub fn follow(&mut self, before: &Self) {
+        self.invariants.follow(&before.invariants);
+        self.start_angle = before.start_angle;
+        self.placed = before.placed;
+    }
+
     /// The flow.
     pub fn flow(&mut self) -> &mut GradientFlow {
         &mut self.flow

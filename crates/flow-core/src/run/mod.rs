@@ -19,6 +19,7 @@ mod schedule;
 mod setup;
 mod setup_error;
 mod simulation;
+mod switches;
 
 pub use crate::integrator::{Counters, Rejections};
 pub use energy_terms::nodal_lines;

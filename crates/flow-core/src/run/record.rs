@@ -13,8 +13,10 @@ pub struct Frame {
     pub energy_terms: Vec<f64>,
     /// Dissipation −d𝓕/dt ≥ 0.
     pub dissipation: f64,
-    /// 𝓕 − 𝓕₀ + ∫ dissipation dt: zero up to the error of the time integration.
+    /// 𝓕 − 𝓕₀ + ∫ dissipation dt: zero up to the error of the time integration and [`Frame::remap_error`].
     pub energy_balance: f64,
+    /// Energy that changes of the nodes or of the gauge have added so far; zero in a run without them.
+    pub remap_error: f64,
     /// Length |Γ|.
     pub length: f64,
     /// Enclosed (signed) area, positive on a counter-clockwise curve.

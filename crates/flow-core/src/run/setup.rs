@@ -10,6 +10,7 @@ use super::mobilities::{density_mobilities, normal_mobility};
 use super::resolution;
 use super::scene::{self, Scene};
 use super::setup_error::SetupError;
+use super::switches::Switches;
 use crate::flow::{EnergySum, FlowMap, GradientFlow, LinearSolver};
 use crate::geometry::shapes::{Resampled, Shape};
 use crate::geometry::{
@@ -30,6 +31,8 @@ pub struct Setup {
     pub diagnostics: Diagnostics,
     /// Gap of the initial curve before it was closed.
     pub closure_defect: f64,
+    /// Changes of the gauge to come.
+    pub switches: Switches,
 }
 
 /// Largest gap, relative to the length, that is closed on input without complaint.
@@ -49,22 +52,34 @@ impl Setup {
         check_turning(scene, &curve)?;
         let layout = Layout::new(nodes, scene.density.len());
         let (state, closure_defect) = initial_state(scene, &curve, layout, grading.as_ref())?;
-        let grid = PeriodicGrid::new(nodes);
-        let derivative = Derivative::graded(family(scene.accuracy.derivative), &grid, grading.clone());
-        let area = area(&state, layout, &curve, grading);
+        let area = area(&state, layout, &curve, grading.clone());
         let initial = Initial { length: initial_length, area };
-        let terms = energy_terms(scene, initial, nodes)?;
-        let diagnostics = Diagnostics::new(scene, initial, layout, &derivative)?;
-        let energy = EnergySum::new(terms, layout, &grid, &derivative);
-        let map = FlowMap::new(layout, &grid, &derivative);
-        let normal = normal_mobility(scene.flow.normal_mobility, &grid, &derivative);
-        let mobilities = density_mobilities(scene, &grid, &derivative)?;
-        let flow = GradientFlow::new(map, energy, layout, normal, mobilities);
+        let (flow, diagnostics) = flow(scene, initial, nodes, grading)?;
         let solver = linear_solver(scene.accuracy.linear_solver);
         let membrane = Membrane::new(flow, solver, curve.turning_number, curve.angle);
         let placement = Placement { angle: curve.angle, centre: curve.centre };
-        Ok(Self { membrane, state, placement, diagnostics, closure_defect })
+        let switches = Switches::new(scene, initial, nodes)?;
+        Ok(Self { membrane, state, placement, diagnostics, closure_defect, switches })
     }
+}
+
+/// The flow of a scene on `nodes` nodes, and what frames hold on request.
+pub(super) fn flow(
+    scene: &Scene,
+    initial: Initial,
+    nodes: usize,
+    grading: Option<Arc<Grading>>,
+) -> Result<(GradientFlow, Diagnostics), SetupError> {
+    let layout = Layout::new(nodes, scene.density.len());
+    let grid = PeriodicGrid::new(nodes);
+    let derivative = Derivative::graded(family(scene.accuracy.derivative), &grid, grading);
+    let terms = energy_terms(scene, initial, nodes)?;
+    let diagnostics = Diagnostics::new(scene, initial, layout, &derivative)?;
+    let energy = EnergySum::new(terms, layout, &grid, &derivative);
+    let map = FlowMap::new(layout, &grid, &derivative);
+    let normal = normal_mobility(scene.flow.normal_mobility, &grid, &derivative);
+    let mobilities = density_mobilities(scene, &grid, &derivative)?;
+    Ok((GradientFlow::new(map, energy, layout, normal, mobilities), diagnostics))
 }
 
 fn check_turning(scene: &Scene, curve: &Resampled) -> Result<(), SetupError> {
@@ -155,7 +170,7 @@ fn family(derivative: scene::Derivative) -> DerivativeFamily {
     }
 }
 
-fn linear_solver(solver: scene::LinearSolver) -> LinearSolver {
+pub(super) fn linear_solver(solver: scene::LinearSolver) -> LinearSolver {
     match solver {
         scene::LinearSolver::Auto => LinearSolver::Auto,
         scene::LinearSolver::Fourier => LinearSolver::Fourier,

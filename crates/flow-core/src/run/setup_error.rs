@@ -45,6 +45,9 @@ pub enum SetupError {
     /// The grading is no metric on the nodes.
     #[error("`flow.grading`: {0}")]
     Grading(GradingError),
+    /// The nodes of another gauge do not resolve the curve.
+    #[error("`flow.switch`: {0}")]
+    Switch(#[from] crate::geometry::ClosureError),
     /// A field that the frames shall hold needs more nodes.
     #[error(
         "`output.fields`: \"{field}\" inverts H = −Δ_s + κ², which takes {fewest} nodes at least, and `accuracy.nodes` \

@@ -40,6 +40,7 @@ pub fn record(frames: usize, nodes: usize, densities: &[&str]) -> Record {
             krylov_iterations: 8,
             factorisations: 9,
             solves: 10,
+            remaps: 11,
             integration_seconds: 0.25,
         },
         stop_reason: StopReason::Equilibrium,

@@ -32,6 +32,7 @@ pub(super) static FRAME_VALUES: &[Entry<Frame, f64>] = entries![Frame => f64:
     energy, "energy", "energy_unit";
     dissipation, "dissipation, minus the rate of change of the energy", "energy_unit time_unit-1";
     energy_balance, "energy - initial energy + dissipation integrated over time", "energy_unit";
+    remap_error, "energy that changes of the nodes or of the gauge have added", "energy_unit";
     length, "length of the curve", "length_unit";
     area, "enclosed area, signed", "length_unit2";
     closure_defect, "gap between the ends of the curve before projection", "length_unit";
@@ -70,6 +71,7 @@ pub(super) static COUNTERS: &[Entry<Counters, u64>] = entries![Counters => u64:
     krylov_iterations, "Krylov iterations", "1";
     factorisations, "factorisations", "1";
     solves, "solves with a factorisation", "1";
+    remaps, "changes of the nodes or of the gauge", "1";
 ];
 
 /// A group with one dataset per name, each with one value per frame.

@@ -155,12 +155,12 @@ fn read(mut root: Section<'_>) -> Option<Scene> {
         }
         energy
     });
-    let flow = root.section("flow").map(Flow::read).unwrap_or_default();
     let time = root.required("time", "[time] with end = 1.0");
     let time = time.and_then(|entry| Time::read(entry.section()?));
+    let end = time.as_ref().map(|time| time.end);
+    let flow = root.section("flow").map(|table| Flow::read(table, end)).unwrap_or_default();
     let accuracy = root.section("accuracy").map(|table| Accuracy::read(table, flow.normal_mobility));
     let accuracy = accuracy.unwrap_or_default();
-    let end = time.as_ref().map(|time| time.end);
     let output =
         root.section("output").map_or_else(|| Some(Output::default()), |table| Output::read(table, end));
     root.finish();

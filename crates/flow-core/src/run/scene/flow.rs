@@ -6,6 +6,7 @@ use super::choice::names;
 use super::error::Fault;
 use super::formula::Formula;
 use super::section::Section;
+use super::switch::Switch;
 
 /// Table `[flow]`; may be left out.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -20,6 +21,9 @@ pub struct Flow {
     /// Whether the run stops once the curve crosses itself more often than at the start; crossings are legal unless
     /// this is set.
     pub stop_on_contact: bool,
+    /// Changes of the gauge on the way, in the order of their times.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub switch: Vec<Switch>,
 }
 
 names! {
@@ -58,17 +62,36 @@ impl Default for Flow {
             gauge: Gauge::ScaledArcLength,
             grading: None,
             stop_on_contact: false,
+            switch: Vec::new(),
         }
     }
 }
 
 impl Flow {
-    pub(super) fn read(mut section: Section<'_>) -> Self {
+    /// `end` is the end time, if that is known.
+    pub(super) fn read(mut section: Section<'_>, end: Option<f64>) -> Self {
         let default = Self::default();
         let normal_mobility = section.get("normal_mobility").and_then(|entry| entry.choice(&[]));
+        let (gauge, grading) = Gauge::read(&mut section);
+        let stop_on_contact = section.get("stop_on_contact").and_then(|entry| entry.boolean());
+        let switch = Switch::read_all(section.get("switch"), end);
+        section.finish();
+        Self {
+            normal_mobility: normal_mobility.unwrap_or(default.normal_mobility),
+            gauge: gauge.unwrap_or(default.gauge),
+            grading,
+            stop_on_contact: stop_on_contact.unwrap_or(default.stop_on_contact),
+            switch,
+        }
+    }
+}
+
+impl Gauge {
+    /// The keys `gauge` and `grading` of a table.
+    pub(super) fn read(section: &mut Section<'_>) -> (Option<Self>, Option<Formula>) {
         let gauge = section.get("gauge").and_then(|entry| entry.choice(&["co-moving"]));
         let grading = section.get("grading");
-        let known = gauge.unwrap_or(default.gauge);
+        let known = gauge.unwrap_or(Flow::default().gauge);
         match (known, &grading) {
             (Gauge::Graded, None) => section.fault("grading", Fault::MissingKey { example: GRADING }),
             (Gauge::Graded, Some(_)) => {}
@@ -81,13 +104,6 @@ impl Flow {
         }
         let grading =
             grading.and_then(|entry| entry.positive_formula("s", "add a constant, for example 0.1"));
-        let stop_on_contact = section.get("stop_on_contact").and_then(|entry| entry.boolean());
-        section.finish();
-        Self {
-            normal_mobility: normal_mobility.unwrap_or(default.normal_mobility),
-            gauge: known,
-            grading,
-            stop_on_contact: stop_on_contact.unwrap_or(default.stop_on_contact),
-        }
+        (gauge, grading)
     }
 }

@@ -38,6 +38,7 @@ mod report;
 mod section;
 mod shipped;
 mod suggest;
+mod switch;
 mod time;
 
 pub use accuracy::{Accuracy, Derivative, LinearSolver, Nodes};
@@ -53,4 +54,5 @@ pub use flow::{Flow, Gauge, NormalMobility};
 pub use formula::Formula;
 pub use output::{Frames, Output, OutputField, Spacing};
 pub use points::PointsError;
+pub use switch::Switch;
 pub use time::Time;

@@ -1,0 +1,109 @@
+//! From a scene to a simulation at its initial state.
+
+use std::time::Instant;
+
+use super::{ENERGY_TOLERANCE_SHARE, Simulation};
+use crate::integrator::{Adaptive, AdaptiveOptions, Bdf, Counters, Finish, INTEGRALS, Problem};
+use crate::run::equilibrium::Equilibrium;
+use crate::run::frames::{Start, frame};
+use crate::run::membrane::Membrane;
+use crate::run::record::{Record, StepLog, StopReason};
+use crate::run::scene::Scene;
+use crate::run::schedule::frame_times;
+use crate::run::setup::Setup;
+use crate::run::setup_error::SetupError;
+
+/// Steps that are logged without allocating; beyond, the room doubles now and then.
+const STEP_ROOM: usize = 4096;
+impl Simulation {
+    /// Builds what the scene names; saves the initial frame.
+    ///
+    /// # Errors
+    /// [`SetupError`] if the scene makes no initial state.
+    pub fn new(scene: &Scene) -> Result<Self, SetupError> {
+        let Setup { mut membrane, mut state, placement, mut diagnostics, closure_defect, switches } =
+            Setup::new(scene)?;
+        let finish = membrane.finish(0.0, &mut state);
+        let Finish::Good { energy, dissipation, integral_rates } = finish else {
+            return Err(not_finite(&mut membrane, &state));
+        };
+        if let Some(fault) = membrane.flow().fault() {
+            return Err(fault.into());
+        }
+        let start = Start { energy, angle: placement.angle, centre: placement.centre, remap_error: 0.0 };
+        let first = frame(
+            &mut membrane,
+            &mut diagnostics,
+            0.0,
+            &mut state,
+            [0.0; INTEGRALS],
+            &start,
+            Some(closure_defect),
+        );
+        let allowed_crossings = first.crossings as usize;
+        let mut counters = Counters::default();
+        let clock = Instant::now();
+        let stepper =
+            Bdf::new(&mut membrane, &state, integral_rates, scene.accuracy.tolerance, &mut counters);
+        counters.integration_seconds = clock.elapsed().as_secs_f64();
+        let end = scene.time.end;
+        let options = AdaptiveOptions {
+            end: end.min(switches.next_time()),
+            most_steps: scene.time.max_steps.unwrap_or(u64::MAX),
+            energy_tolerance: ENERGY_TOLERANCE_SHARE * scene.accuracy.tolerance,
+        };
+        let rest = scene.time.equilibrium_tolerance.unwrap_or(0.01 * scene.accuracy.tolerance);
+        let mut frame_times = frame_times(&scene.output, end).into_iter();
+        let record = Record {
+            title: scene.title.clone(),
+            scene: scene.text().to_owned(),
+            resolved_scene: scene.resolved(membrane.flow().layout().nodes()),
+            energy_terms: membrane.flow().energy_terms().names().map(str::to_owned).collect(),
+            densities: scene.density.iter().map(|density| density.name.clone()).collect(),
+            fields: diagnostics.field_names(),
+            diagnostics: diagnostics.value_names(),
+            frames: vec![first],
+            steps: StepLog::with_room(STEP_ROOM),
+            counters,
+            stop_reason: StopReason::EndTime,
+        };
+        Ok(Self {
+            equilibrium: scene
+                .time
+                .stop_at_equilibrium
+                .then(|| Equilibrium::new(rest, energy, dissipation, end)),
+            integration: Adaptive::new(stepper, options, energy, counters),
+            switches,
+            tolerance: scene.accuracy.tolerance,
+            start,
+            end,
+            next_frame: frame_times.next(),
+            frame_times,
+            scratch: state,
+            closure_defect,
+            allowed_crossings: scene.flow.stop_on_contact.then_some(allowed_crossings),
+            membrane,
+            diagnostics,
+            record,
+            stopped: None,
+        })
+    }
+}
+
+/// Names the term that is not finite on the initial data.
+#[cold]
+fn not_finite(membrane: &mut Membrane, state: &[f64]) -> SetupError {
+    let layout = membrane.layout();
+    let mut nodal = vec![0.0; layout.len()];
+    membrane.flow().decode(state, &mut nodal);
+    let values = membrane.flow().energies_by_term(&nodal);
+    let names: Vec<_> = membrane.flow().energy_terms().names().collect();
+    let culprit = values.iter().position(|value| !value.is_finite()).unwrap_or_default();
+    let curvature = membrane.flow().current().at_nodes(0).to_vec();
+    SetupError::EnergyNotFinite {
+        term: names.get(culprit).copied().unwrap_or_default().to_owned(),
+        value: values.get(culprit).copied().unwrap_or(f64::NAN),
+        low: curvature.iter().copied().fold(f64::INFINITY, f64::min),
+        high: curvature.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+    }
+}
