@@ -7,7 +7,9 @@ import xarray
 
 import curveflow as cf
 
-VALUES = ("time", "energy", "dissipation", "energy_balance", "remap_error", "length", "area", "closure_defect", "crossings")
+VALUES = (
+    "time", "energy", "dissipation", "energy_balance", "remap_error", "length", "area", "closure_defect", "crossings",
+)
 FIELDS = ("curvature", "metric", "normal_velocity")
 
 
