@@ -96,6 +96,12 @@ impl<S: Stepper> Adaptive<S> {
         &self.stepper
     }
 
+    /// Energy of the last accepted state.
+    #[must_use]
+    pub fn energy(&self) -> f64 {
+        self.energy
+    }
+
     /// The settings.
     #[must_use]
     pub fn options(&self) -> &AdaptiveOptions {

@@ -7,7 +7,8 @@
 use super::error_norm::ErrorNorm;
 use super::history::{History, MOST_POINTS, Weights, lagrange};
 use super::integrals::Integrals;
-use super::newton::{NewtonKrylov, NewtonOutcome, Stage};
+use super::memory::Memory;
+use super::newton::{Factorisation, NewtonKrylov, NewtonOutcome, Stage};
 use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
 
 const HIGHEST_ORDER: usize = 5;
@@ -85,18 +86,56 @@ impl Bdf {
         let time = integrals.time();
         history.push(time - step, &before);
         history.push(time, y);
-        Self {
-            history,
+        let memory = Memory {
+            points: history.points(),
             integrals,
-            norm,
-            newton: NewtonKrylov::new(size),
-            tolerance: local_tolerance(tolerance),
+            factorisation: Factorisation::default(),
             order: 1,
             last_order: 1,
             step,
             steps_at_order: 0,
             accepted: 0,
             failures: 0,
+        };
+        Self::resume(problem, memory, tolerance)
+    }
+
+    /// What it takes to go on from here.
+    #[must_use]
+    pub fn memory(&self) -> Memory {
+        Memory {
+            points: self.history.points(),
+            integrals: self.integrals.clone(),
+            factorisation: self.newton.factorisation(),
+            order: self.order,
+            last_order: self.last_order,
+            step: self.step,
+            steps_at_order: self.steps_at_order,
+            accepted: self.accepted,
+            failures: self.failures,
+        }
+    }
+
+    /// Goes on from `memory`, to the same local errors as before if `tolerance` is the same.
+    ///
+    /// The factorisation that the memory speaks of must be in `problem`.
+    #[must_use]
+    pub fn resume(problem: &dyn Problem, memory: Memory, tolerance: f64) -> Self {
+        let size = problem.size();
+        let mut newton = NewtonKrylov::new(size);
+        newton.set_factorisation(memory.factorisation);
+        Self {
+            history: History::of(size, &memory.points),
+            integrals: memory.integrals,
+            norm: ErrorNorm::new(problem),
+            newton,
+            tolerance: local_tolerance(tolerance),
+            order: memory.order,
+            last_order: memory.last_order,
+            step: memory.step,
+            steps_at_order: memory.steps_at_order,
+            accepted: memory.accepted,
+            failures: memory.failures,
             predicted: vec![0.0; size],
             constant: vec![0.0; size],
             candidate: vec![0.0; size],

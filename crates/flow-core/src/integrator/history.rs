@@ -3,7 +3,7 @@
 use crate::geometry::vectors::{add_scaled, scale_into};
 
 /// The last states, newest first; storage is reused.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct History {
     times: Vec<f64>,
     states: Vec<Vec<f64>>,
@@ -47,6 +47,22 @@ impl History {
     #[must_use]
     pub fn new(size: usize) -> Self {
         Self { times: vec![0.0; MOST_POINTS], states: vec![vec![0.0; size]; MOST_POINTS], filled: 0 }
+    }
+
+    /// Times and states held, newest first.
+    #[must_use]
+    pub fn points(&self) -> Vec<(f64, Vec<f64>)> {
+        self.times().iter().copied().zip(self.states.iter().cloned()).collect()
+    }
+
+    /// The history of these `points`, as [`History::points`] gives them; the newest few count.
+    #[must_use]
+    pub fn of(size: usize, points: &[(f64, Vec<f64>)]) -> Self {
+        let mut history = Self::new(size);
+        for (time, state) in points.iter().take(MOST_POINTS).rev() {
+            history.push(*time, state);
+        }
+        history
     }
 
     /// Number of states held.

@@ -1,6 +1,8 @@
 //! Integrals over time of quantities known at the accepted steps, by polynomials through their last values
 //! (an implicit Adams formula with variable steps). See `THEORY.md`, eq. (I6).
 
+use serde::{Deserialize, Serialize};
+
 use super::INTEGRALS;
 use super::history::lagrange;
 
@@ -11,7 +13,7 @@ const GAUSS: [(f64, f64); 3] =
     [(0.112_701_665_379_258_31, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
 
 /// The integrals with the history of their rates, newest first.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Integrals {
     times: [f64; POINTS],
     rates: [[f64; INTEGRALS]; POINTS],
@@ -25,6 +27,13 @@ impl Integrals {
     #[must_use]
     pub fn new(time: f64, values: [f64; INTEGRALS], rates: [f64; INTEGRALS]) -> Self {
         Self { times: [time; POINTS], rates: [rates; POINTS], filled: 1, values: [values; 2] }
+    }
+
+    /// Whether the numbers belong together.
+    #[must_use]
+    pub(super) fn is_sound(&self) -> bool {
+        let rates = self.rates.iter().chain(&self.values).flatten();
+        (1..=POINTS).contains(&self.filled) && rates.chain(&self.times).all(|value| value.is_finite())
     }
 
     /// The last time.

@@ -6,6 +6,7 @@ mod error_norm;
 mod gmres;
 mod history;
 mod integrals;
+mod memory;
 mod newton;
 mod statistics;
 
@@ -15,7 +16,8 @@ pub use error_norm::ErrorNorm;
 pub use gmres::{Gmres, Target};
 pub use history::History;
 pub use integrals::Integrals;
-pub use newton::{NewtonKrylov, NewtonOutcome, Stage};
+pub use memory::Memory;
+pub use newton::{Factorisation, NewtonKrylov, NewtonOutcome, Stage};
 pub use statistics::{Counters, Rejections};
 
 /// A system dy/dt = f(y) with an implicit operator I − γJ, J ≈ f′.

@@ -1,5 +1,7 @@
 //! Newton–Krylov iteration for an implicit stage y = a + γ f(y). See `THEORY.md`, eq. (I2).
 
+use serde::{Deserialize, Serialize};
+
 use super::error_norm::ErrorNorm;
 use super::gmres::{Gmres, Target};
 use super::{Counters, Problem};
@@ -47,9 +49,16 @@ pub struct NewtonKrylov {
     gmres: Gmres,
     rate: Vec<f64>,
     correction: Vec<f64>,
-    factorised_gamma: Option<f64>,
-    factorisation_age: usize,
-    /// Krylov iterations of the first solve with the factorisation, and of the last.
+    factorisation: Factorisation,
+}
+
+/// How old the factorisation is, and how well it serves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Factorisation {
+    /// γ of the factorisation; none if there is none that may serve.
+    pub gamma: Option<f64>,
+    age: usize,
+    /// Krylov iterations of the first solve with it, and of the last.
     iterations: [usize; 2],
 }
 
@@ -61,10 +70,19 @@ impl NewtonKrylov {
             gmres: Gmres::new(size, MOST_KRYLOV),
             rate: vec![0.0; size],
             correction: vec![0.0; size],
-            factorised_gamma: None,
-            factorisation_age: 0,
-            iterations: [0; 2],
+            factorisation: Factorisation::default(),
         }
+    }
+
+    /// Age of the factorisation.
+    #[must_use]
+    pub fn factorisation(&self) -> Factorisation {
+        self.factorisation
+    }
+
+    /// Goes on with a factorisation of the age `factorisation`.
+    pub fn set_factorisation(&mut self, factorisation: Factorisation) {
+        self.factorisation = factorisation;
     }
 
     /// Solves `stage` from `guess` into `y`.
@@ -86,29 +104,29 @@ impl NewtonKrylov {
             }
             y.copy_from_slice(guess);
             if self.iterate(problem, norm, stage, y, counters) {
-                self.factorisation_age += 1;
+                self.factorisation.age += 1;
                 return NewtonOutcome::Converged;
             }
             if !serves {
                 return NewtonOutcome::Failed;
             }
-            self.factorised_gamma = None;
+            self.factorisation.gamma = None;
         }
     }
 
     fn factorisation_serves(&self, gamma: f64) -> bool {
         let near = |old: f64| gamma < GAMMA_DRIFT * old && old < GAMMA_DRIFT * gamma;
-        let [first, last] = self.iterations;
-        let good = self.factorisation_age < OLDEST_FACTORISATION && last <= first + MORE_ITERATIONS;
-        self.factorised_gamma.is_some_and(near) && good
+        let [first, last] = self.factorisation.iterations;
+        let good = self.factorisation.age < OLDEST_FACTORISATION && last <= first + MORE_ITERATIONS;
+        self.factorisation.gamma.is_some_and(near) && good
     }
 
     fn factorise(&mut self, problem: &mut dyn Problem, gamma: f64, counters: &mut Counters) -> bool {
         counters.factorisations += 1;
-        self.factorisation_age = 0;
-        self.iterations = [0; 2];
-        self.factorised_gamma = problem.factorise(gamma).then_some(gamma);
-        self.factorised_gamma.is_some()
+        self.factorisation.age = 0;
+        self.factorisation.iterations = [0; 2];
+        self.factorisation.gamma = problem.factorise(gamma).then_some(gamma);
+        self.factorisation.gamma.is_some()
     }
 
     /// Corrects `y`, at which the rate is known, until the next correction would be below the goal.
@@ -178,13 +196,13 @@ impl NewtonKrylov {
         let target = Target { goal: KRYLOV_SHARE * stage.goal, reduction: KRYLOV_REDUCTION, weighted };
         let solved = self.gmres.solve(problem, norm, stage.gamma, target, &mut self.correction, counters);
         if weighted {
-            self.iterations[1] = solved.iterations;
-            if self.factorisation_age == 0 {
-                self.iterations[0] = solved.iterations;
+            self.factorisation.iterations[1] = solved.iterations;
+            if self.factorisation.age == 0 {
+                self.factorisation.iterations[0] = solved.iterations;
             }
         }
         if problem.krylov_feedback(solved.iterations) {
-            self.factorised_gamma = None;
+            self.factorisation.gamma = None;
         }
         let size = norm.norm(&self.correction);
         if !size.is_finite() || !solved.converged {

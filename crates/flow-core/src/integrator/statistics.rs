@@ -1,7 +1,9 @@
 //! Counters of work and of rejected attempts.
 
+use serde::{Deserialize, Serialize};
+
 /// Attempts at a step that were thrown away, by cause.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Rejections {
     /// The local error was above the tolerance.
     pub error: u64,
@@ -32,7 +34,7 @@ impl Rejections {
 }
 
 /// Work done and time spent.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Counters {
     /// Accepted steps.
     pub steps: u64,

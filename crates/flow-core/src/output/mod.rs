@@ -1,6 +1,7 @@
 //! Writers that turn a [`Record`](crate::run::Record) into files, and the reader that brings it back.
 
 pub mod atomic_file;
+pub mod checkpoint;
 #[cfg(feature = "hdf5")]
 pub mod hdf5_file;
 #[cfg(feature = "picture")]

@@ -18,6 +18,8 @@ pub enum Operation {
     Rename,
     /// Reading the file.
     Read,
+    /// Removing the file.
+    Remove,
 }
 
 impl fmt::Display for Operation {
@@ -28,6 +30,7 @@ impl fmt::Display for Operation {
             Self::Sync => "hand the bytes to the disk",
             Self::Rename => "give the finished file its name",
             Self::Read => "read",
+            Self::Remove => "remove",
         })
     }
 }
@@ -67,6 +70,24 @@ pub enum StorageError {
     #[error("{}: is an HDF5 file, but its attribute Conventions is {found:?}, not \"{expected}\"; \
              give a result file of Curveflow", .path.display())]
     Foreign { path: PathBuf, found: Option<String>, expected: &'static str },
+    /// The file is no checkpoint.
+    #[error("{}: is not a checkpoint of this version of Curveflow; run the scene anew, or use the version that wrote it",
+            .path.display())]
+    NotACheckpoint { path: PathBuf },
+    /// The checkpoint is whole, but its scene or its state cannot be used.
+    #[error("{}: {reason}", .path.display())]
+    ForeignCheckpoint { path: PathBuf, reason: String },
+    /// A run was stopped before its end, and is to be thrown away.
+    #[error("{}: a run to this file was stopped before its end ({} steps, t = {time:.6e}); go on with `resume`, choose \
+             another name, or ask for it to be replaced", .path.display(), steps)]
+    Unfinished { path: PathBuf, steps: u64, time: f64 },
+    /// There is nothing to go on from.
+    #[error("{}: has no checkpoint to go on from; checkpoints lie beside the result file, give its name as in `run -o`",
+            .path.display())]
+    NoCheckpoint { path: PathBuf },
+    /// Another process writes to the file.
+    #[error("{}: another run writes to this file; wait for it, or choose another name", .path.display())]
+    Busy { path: PathBuf },
     /// The file is truncated or its content does not pass a checksum.
     #[error("{}: is truncated or damaged at {item}; restore it from a copy, or run the scene again",
             .path.display())]
@@ -77,7 +98,15 @@ impl StorageError {
     /// `true` if a file to be read is not one of ours, or no longer readable.
     #[must_use]
     pub fn is_unreadable_file(&self) -> bool {
-        matches!(self, Self::NotHdf5 { .. } | Self::Foreign { .. } | Self::Damaged { .. })
+        matches!(
+            self,
+            Self::NotHdf5 { .. }
+                | Self::Foreign { .. }
+                | Self::Damaged { .. }
+                | Self::NotACheckpoint { .. }
+                | Self::ForeignCheckpoint { .. }
+                | Self::NoCheckpoint { .. }
+        )
     }
 
     #[cold]

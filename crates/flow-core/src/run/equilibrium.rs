@@ -1,5 +1,7 @@
 //! When a flow is at rest, judged by its dissipation. See `THEORY.md`, eq. (I7).
 
+use serde::{Deserialize, Serialize};
+
 /// Part of the energy lost so far that counts as energy scale, where the energy itself is near zero.
 const PART_OF_LOSS: f64 = 1e-3;
 /// Energy below this part of the scale is rounding.
@@ -12,7 +14,7 @@ const STEPS: u32 = 5;
 /// The energy still to be lost is about D·max(t, 1/2λ), with λ the rate at which the flow converges, measured
 /// as −½ d ln D/dt. The flow is at rest once this has stayed below a part of the energy while the time
 /// doubled. A flow that creeps (a metastable state) is at rest by this measure, to the tolerance asked for.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Equilibrium {
     tolerance: f64,
     initial_energy: f64,

@@ -1,5 +1,7 @@
 //! Makes the frames of a record from states.
 
+use serde::{Deserialize, Serialize};
+
 use super::diagnostics::{Diagnostics, Evaluated};
 use super::membrane::{ANGLE, CENTRE, DISSIPATED, Membrane};
 use super::record::Frame;
@@ -66,7 +68,7 @@ pub fn frame(
 }
 
 /// What the integrals start from.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Start {
     /// Energy at time 0.
     pub energy: f64,

@@ -3,6 +3,8 @@
 //! Masses and length are linear invariants, which the integrator keeps up to the rounding and the solves of each step;
 //! the area is quadratic, and drifts with the error of the steps.
 
+use serde::{Deserialize, Serialize};
+
 use crate::flow::{GradientFlow, Kept};
 use crate::geometry::{Closure, ClosureError, Complex64, SpectralLayout, enclosed_area};
 
@@ -26,6 +28,15 @@ pub struct Invariants {
     taken: bool,
     square: Vec<Complex64>,
     values: Vec<f64>,
+}
+
+/// Values of the kept quantities.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct KeptValues {
+    taken: bool,
+    masses: Vec<f64>,
+    length: f64,
+    area: f64,
 }
 
 impl Invariants {
@@ -80,10 +91,23 @@ impl Invariants {
         Ok(gap)
     }
 
-    /// Keeps the values that `before` keeps.
-    pub fn follow(&mut self, before: &Self) {
-        self.masses.clone_from(&before.masses);
-        (self.length, self.area, self.taken) = (before.length, before.area, before.taken);
+    /// The values kept; none before the first state was restored.
+    #[must_use]
+    pub fn kept_values(&self) -> KeptValues {
+        let masses = self.masses.iter().map(|(_, mass)| *mass).collect();
+        KeptValues { taken: self.taken, masses, length: self.length, area: self.area }
+    }
+
+    /// Keeps `values` from now on; false if they are those of other densities.
+    pub fn set_kept_values(&mut self, values: KeptValues) -> bool {
+        if values.masses.len() != self.masses.len() {
+            return false;
+        }
+        for ((_, mass), value) in self.masses.iter_mut().zip(values.masses) {
+            *mass = value;
+        }
+        (self.length, self.area, self.taken) = (values.length, values.area, values.taken);
+        true
     }
 
     fn restore_linear(&self, y: &mut [f64]) {

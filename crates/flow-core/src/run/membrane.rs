@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
-use super::invariants::Invariants;
+use serde::{Deserialize, Serialize};
+
+use super::invariants::{Invariants, KeptValues};
 use crate::flow::{GradientFlow, LinearSolver, Preconditioner, Rate};
 use crate::geometry::{Closure, Crossings, Embedding, Layout};
 use crate::integrator::{Finish, INTEGRALS, Problem};
@@ -36,13 +38,27 @@ pub struct Membrane {
     /// Time, angle and rate of the angle at the last accepted state; rate at the candidate.
     placed: [f64; 3],
     candidate_angle_rate: f64,
+    /// The spectral state of the linearisation, and that of the factorisation with its γ.
+    linearised: Vec<f64>,
+    factorised: (Vec<f64>, f64),
+}
+
+/// What a membrane knows besides its state.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MembraneMemory {
+    may_turn_to_banded: bool,
+    mean_iterations: f64,
+    kept: KeptValues,
+    start_angle: f64,
+    placed: [f64; 3],
+    factorised: (Vec<f64>, f64),
 }
 
 impl Membrane {
     /// The problem of `flow` for curves of turning number `turning_number`, placed at `angle`.
     #[must_use]
     pub fn new(mut flow: GradientFlow, solver: LinearSolver, turning_number: i32, angle: f64) -> Self {
-        let nodes = flow.layout().nodes();
+        let (nodes, size) = (flow.layout().nodes(), flow.spectral_layout().len());
         Self {
             preconditioner: Preconditioner::new(solver, &mut flow),
             banded: (solver == LinearSolver::Auto && Preconditioner::banded_exists(&flow))
@@ -58,12 +74,14 @@ impl Membrane {
             start_angle: angle,
             placed: [0.0, angle, 0.0],
             candidate_angle_rate: 0.0,
+            linearised: vec![0.0; size],
+            factorised: (vec![0.0; size], 0.0),
         }
     }
 
     /// Goes on from where `before` stands at `time`, with what it keeps.
     pub fn follow(&mut self, before: &Self) {
-        self.invariants.follow(&before.invariants);
+        self.invariants.set_kept_values(before.invariants.kept_values());
         self.start_angle = before.start_angle;
         self.placed = before.placed;
     }
@@ -111,6 +129,46 @@ impl Membrane {
         self.closure_defect
     }
 
+    /// Whether there was a choice left to turn to the banded solver, which is taken now.
+    fn turn_to_banded(&mut self) -> bool {
+        let Some(banded) = self.banded.take() else { return false };
+        self.preconditioner = banded;
+        true
+    }
+
+    /// What it takes to go on from here.
+    #[must_use]
+    pub fn memory(&self) -> MembraneMemory {
+        MembraneMemory {
+            may_turn_to_banded: self.banded.is_some(),
+            mean_iterations: self.mean_iterations,
+            kept: self.invariants.kept_values(),
+            start_angle: self.start_angle,
+            placed: self.placed,
+            factorised: self.factorised.clone(),
+        }
+    }
+
+    /// Goes on from `memory`, with the factorisation that it speaks of if that is `needed`; false if it does not fit.
+    pub fn resume(&mut self, memory: MembraneMemory, needed: bool) -> bool {
+        let (state, gamma) = memory.factorised;
+        if state.len() != self.flow.spectral_layout().len() || !self.invariants.set_kept_values(memory.kept) {
+            return false;
+        }
+        if !memory.may_turn_to_banded {
+            self.turn_to_banded();
+        }
+        self.mean_iterations = memory.mean_iterations;
+        self.start_angle = memory.start_angle;
+        self.placed = memory.placed;
+        if !needed {
+            return true;
+        }
+        self.flow.spectral_linearise(&state);
+        self.linearised = state;
+        self.factorise(gamma)
+    }
+
     /// Rates of the integrals at the state evaluated last: dissipation, ⟨κW⟩, ⟨Vn + Wτ⟩.
     fn integral_rates(&mut self, rate: Rate) -> [f64; INTEGRALS] {
         self.flow.tangential_velocity(&mut self.tangential);
@@ -155,6 +213,7 @@ impl Problem for Membrane {
     }
 
     fn linearise(&mut self, y: &[f64], rate: &mut [f64]) {
+        self.linearised.copy_from_slice(y);
         self.flow.spectral_linearise(y);
         self.flow.frozen_rate(rate);
     }
@@ -164,6 +223,8 @@ impl Problem for Membrane {
     }
 
     fn factorise(&mut self, gamma: f64) -> bool {
+        self.factorised.0.copy_from_slice(&self.linearised);
+        self.factorised.1 = gamma;
         self.flow.linearisation_fault().is_none()
             && self.preconditioner.factorise(&mut self.flow, gamma).is_ok()
     }
@@ -182,13 +243,7 @@ impl Problem for Membrane {
 
     fn krylov_feedback(&mut self, iterations: usize) -> bool {
         self.mean_iterations += 0.1 * (iterations as f64 - self.mean_iterations);
-        if self.mean_iterations > FOURIER_SERVES
-            && let Some(banded) = self.banded.take()
-        {
-            self.preconditioner = banded;
-            return true;
-        }
-        false
+        self.mean_iterations > FOURIER_SERVES && self.turn_to_banded()
     }
 
     fn finish(&mut self, time: f64, y: &mut [f64]) -> Finish {

@@ -32,4 +32,4 @@ pub use record::{Frame, Record, StepLog, StopReason};
 pub use scene::{Scene, SceneError};
 pub use setup::Setup;
 pub use setup_error::SetupError;
-pub use simulation::{ENERGY_TOLERANCE_SHARE, Simulation, run};
+pub use simulation::{ENERGY_TOLERANCE_SHARE, Memory, ResumeError, Simulation, run};

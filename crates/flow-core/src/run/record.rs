@@ -1,9 +1,11 @@
 //! What a run leaves behind: frames, the log of accepted steps, counters and the reason why it stopped.
 
+use serde::{Deserialize, Serialize};
+
 use crate::integrator::{Counters, Rejections};
 
 /// One saved state. Fields hold one value per node, `n` of them.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Frame {
     /// Simulated time.
     pub time: f64,
@@ -44,7 +46,7 @@ pub struct Frame {
 }
 
 /// One entry per accepted step.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct StepLog {
     /// Time at the end of the step.
     pub time: Vec<f64>,

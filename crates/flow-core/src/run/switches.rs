@@ -73,13 +73,30 @@ impl Switches {
     }
 
     fn remap(&self, next: &Pending, before: &mut Membrane, state: &[f64]) -> Result<Switched, SetupError> {
-        let scene = &next.scene;
-        let (mut flow, diagnostics) = setup::flow(scene, self.initial, self.nodes, next.grading.clone())?;
         let turning_number = before.turning_number();
-        let regraded = regrade(before.flow(), &mut flow, state, turning_number)?;
-        let solver = setup::linear_solver(scene.accuracy.linear_solver);
-        let mut membrane = Membrane::new(flow, solver, turning_number, 0.0);
+        let (mut membrane, diagnostics) = self.build(next, turning_number)?;
+        let regraded = regrade(before.flow(), membrane.flow(), state, turning_number)?;
         membrane.follow(before);
         Ok(Switched { membrane, diagnostics, regraded })
+    }
+
+    fn build(&self, next: &Pending, turning_number: i32) -> Result<(Membrane, Diagnostics), SetupError> {
+        let scene = &next.scene;
+        let (flow, diagnostics) = setup::flow(scene, self.initial, self.nodes, next.grading.clone())?;
+        let solver = setup::linear_solver(scene.accuracy.linear_solver);
+        Ok((Membrane::new(flow, solver, turning_number, 0.0), diagnostics))
+    }
+
+    /// Passes over the first `count` changes, into the gauge of the last of them; none if there are none.
+    ///
+    /// # Errors
+    /// [`SetupError`] as for [`Switches::apply`].
+    pub(super) fn skip(
+        &mut self,
+        count: u64,
+        turning_number: i32,
+    ) -> Option<Result<(Membrane, Diagnostics), SetupError>> {
+        let last = (0..count).filter_map(|_| self.pending.pop_front()).last()?;
+        Some(self.build(&last, turning_number))
     }
 }

@@ -121,6 +121,11 @@ impl Scene {
         resolved.to_toml()
     }
 
+    /// The same scene, as if it had been read from `text`.
+    pub(crate) fn with_text(self, text: String) -> Self {
+        Self { text, ..self }
+    }
+
     /// Name and text of each scene that comes with the program.
     #[must_use]
     pub fn shipped() -> &'static [(&'static str, &'static str)] {

@@ -1,10 +1,13 @@
 //! Runs a scene: steps, frames, stop.
 
+mod resume;
 mod start;
 mod switch;
 
 use std::ops::ControlFlow;
 use std::time::Instant;
+
+pub use resume::{Memory, ResumeError};
 
 use crate::geometry::Layout;
 use crate::integrator::{Adaptive, Bdf, Counters, StepReport, Stepper};
@@ -32,8 +35,9 @@ pub struct Simulation {
     start: Start,
     end: f64,
     equilibrium: Option<Equilibrium>,
-    frame_times: std::vec::IntoIter<f64>,
-    next_frame: Option<f64>,
+    frame_times: Vec<f64>,
+    /// Frames saved so far, the initial one and those at [`Self::frame_times`].
+    scheduled_frames: usize,
     scratch: Vec<f64>,
     /// Gap of the last accepted state before its projection.
     closure_defect: f64,
@@ -72,19 +76,24 @@ impl Simulation {
                 self.closure_defect = self.membrane.closure_defect();
                 self.log(&report);
                 self.save_frames();
+                let asked_to_stop = self.tell(&report, observer).is_break();
                 if let Some(fault) = fault {
                     let message = format!("at t = {:.6e}: {fault}", report.time);
                     self.stop(StopReason::Failed(message));
-                } else if self.tell(&report, observer).is_break() {
-                    self.stop(StopReason::Interrupted);
                 } else if self.in_contact() {
                     self.stop(StopReason::Contact);
                 } else if self.at_rest(&report) {
                     self.stop(StopReason::Equilibrium);
                 } else if report.time >= self.end {
                     self.stop(StopReason::EndTime);
-                } else if report.time >= self.switches.next_time() {
-                    self.switch(&report);
+                } else {
+                    if report.time >= self.switches.next_time() {
+                        self.switch(&report);
+                    }
+                    // Last, so that a resumed run has nothing left to do for this step.
+                    if asked_to_stop && self.stopped.is_none() {
+                        self.stop(StopReason::Interrupted);
+                    }
                 }
             }
         }
@@ -127,7 +136,7 @@ impl Simulation {
     fn save_frames(&mut self) {
         let stepper = self.integration.stepper();
         let now = stepper.time();
-        while let Some(time) = self.next_frame.filter(|time| *time < now) {
+        while let Some(time) = self.next_frame().filter(|time| *time < now) {
             let integrals = self.integration.stepper().interpolate(time, &mut self.scratch);
             self.record.frames.push(frame(
                 &mut self.membrane,
@@ -138,8 +147,13 @@ impl Simulation {
                 &self.start,
                 None,
             ));
-            self.next_frame = self.frame_times.next();
+            self.scheduled_frames += 1;
         }
+    }
+
+    /// Time of the next frame of the schedule.
+    fn next_frame(&self) -> Option<f64> {
+        self.frame_times.get(self.scheduled_frames - 1).copied()
     }
 
     fn stop(&mut self, reason: StopReason) {

@@ -53,7 +53,7 @@ impl Simulation {
             energy_tolerance: ENERGY_TOLERANCE_SHARE * scene.accuracy.tolerance,
         };
         let rest = scene.time.equilibrium_tolerance.unwrap_or(0.01 * scene.accuracy.tolerance);
-        let mut frame_times = frame_times(&scene.output, end).into_iter();
+        let frame_times = frame_times(&scene.output, end);
         let record = Record {
             title: scene.title.clone(),
             scene: scene.text().to_owned(),
@@ -77,8 +77,8 @@ impl Simulation {
             tolerance: scene.accuracy.tolerance,
             start,
             end,
-            next_frame: frame_times.next(),
             frame_times,
+            scheduled_frames: 1,
             scratch: state,
             closure_defect,
             allowed_crossings: scene.flow.stop_on_contact.then_some(allowed_crossings),

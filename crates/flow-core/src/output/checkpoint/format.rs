@@ -1,0 +1,120 @@
+//! The bytes of a checkpoint: magic, version, sections with length and CRC-32, footer.
+
+use std::error::Error;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::output::StorageError;
+use crate::run::{Frame, Memory, Scene, Simulation, StepLog};
+
+const MAGIC: &[u8; 8] = b"\x89CFCKPT\n";
+const FOOTER: &[u8; 8] = b"CFCKEND\n";
+/// Changes when what the sections hold changes.
+const VERSION: u32 = 1;
+const SECTIONS: usize = 4;
+
+/// A run that can go on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Checkpoint {
+    /// The scene as given and as resolved.
+    pub scene: SceneTexts,
+    /// The state of the simulation.
+    pub memory: Memory,
+    /// Frames saved so far.
+    pub frames: Vec<Frame>,
+    /// Log of the steps so far.
+    pub steps: StepLog,
+}
+
+/// The scene of a run.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SceneTexts {
+    /// As given, verbatim.
+    pub given: String,
+    /// With every default and automatic choice filled in, and no reference to other files.
+    pub resolved: String,
+}
+
+/// The bytes of the checkpoint of `simulation`.
+#[must_use]
+pub fn encode(simulation: &Simulation) -> Vec<u8> {
+    let memory = simulation.memory();
+    let frames = &simulation.frames()[..memory.frames()];
+    let (given, resolved) = simulation.scene_texts();
+    let scene = SceneTexts { given: given.to_owned(), resolved: resolved.to_owned() };
+    let mut bytes = MAGIC.to_vec();
+    bytes.extend(VERSION.to_le_bytes());
+    let sections = [to_bytes(&scene), to_bytes(&memory), to_bytes(&frames), to_bytes(simulation.steps())];
+    for section in sections {
+        bytes.extend((section.len() as u64).to_le_bytes());
+        bytes.extend(crc32fast::hash(&section).to_le_bytes());
+        bytes.extend(section);
+    }
+    bytes.extend(FOOTER);
+    bytes
+}
+
+/// Vectors and numbers in memory are always encoded.
+fn to_bytes<T: Serialize + ?Sized>(value: &T) -> Vec<u8> {
+    postcard::to_stdvec(value).unwrap_or_default()
+}
+
+/// The checkpoint that `bytes`, read from `path`, hold.
+///
+/// # Errors
+/// [`StorageError::NotACheckpoint`] if they are something else, [`StorageError::Damaged`] if a checksum does not fit.
+pub fn decode(bytes: &[u8], path: &Path) -> Result<Checkpoint, StorageError> {
+    let head = MAGIC.len() + size_of::<u32>();
+    let is_ours =
+        bytes.len() >= head && bytes.starts_with(MAGIC) && bytes[MAGIC.len()..head] == VERSION.to_le_bytes();
+    if !is_ours {
+        return Err(StorageError::NotACheckpoint { path: path.to_path_buf() });
+    }
+    let mut rest = &bytes[head..];
+    let mut sections: [&[u8]; SECTIONS] = [&[]; SECTIONS];
+    for (section, name) in sections.iter_mut().zip(["scene", "memory", "frames", "steps"]) {
+        *section = take_section(&mut rest).ok_or_else(|| damaged(path, name, "the checksum does not fit"))?;
+    }
+    if rest != FOOTER {
+        return Err(damaged(path, "the end", "there is something else"));
+    }
+    let [scene, memory, frames, steps] = sections;
+    Ok(Checkpoint {
+        scene: from_bytes(scene, path, "scene")?,
+        memory: from_bytes(memory, path, "memory")?,
+        frames: from_bytes(frames, path, "frames")?,
+        steps: from_bytes(steps, path, "steps")?,
+    })
+}
+
+fn take_section<'a>(rest: &mut &'a [u8]) -> Option<&'a [u8]> {
+    let (length, after) = rest.split_first_chunk::<8>()?;
+    let (checksum, after) = after.split_first_chunk::<4>()?;
+    let length = usize::try_from(u64::from_le_bytes(*length)).ok()?;
+    let section = after.get(..length)?;
+    *rest = &after[length..];
+    (crc32fast::hash(section) == u32::from_le_bytes(*checksum)).then_some(section)
+}
+
+fn from_bytes<'a, T: Deserialize<'a>>(section: &'a [u8], path: &Path, name: &str) -> Result<T, StorageError> {
+    postcard::from_bytes(section).map_err(|error| damaged(path, name, error))
+}
+
+fn damaged(path: &Path, item: &str, source: impl Into<Box<dyn Error + Send + Sync>>) -> StorageError {
+    StorageError::Damaged { path: path.to_path_buf(), item: format!("`{item}`"), source: source.into() }
+}
+
+impl Checkpoint {
+    /// The simulation that was saved; `path` is for messages.
+    ///
+    /// # Errors
+    /// [`StorageError::ForeignCheckpoint`] if the scene or the state cannot be used.
+    pub fn simulation(self, path: &Path) -> Result<Simulation, StorageError> {
+        let foreign = |reason: String| StorageError::ForeignCheckpoint { path: path.to_path_buf(), reason };
+        let scene = Scene::parse(&self.scene.resolved, "the scene of the checkpoint");
+        let scene = scene.map_err(|error| foreign(error.to_string()))?.with_text(self.scene.given);
+        Simulation::resume(&scene, self.memory, self.frames, self.steps)
+            .map_err(|error| foreign(error.to_string()))
+    }
+}

@@ -1,0 +1,132 @@
+//! Two checkpoint files beside a result file: one is written while the other stays whole.
+
+use std::ffi::OsString;
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use super::format::{Checkpoint, decode, encode};
+use crate::output::{Operation, StorageError, atomic_file};
+use crate::run::Simulation;
+
+const SUFFIXES: [&str; 2] = [".checkpoint-a", ".checkpoint-b"];
+
+/// The two files of one result file.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    result: PathBuf,
+    paths: [PathBuf; 2],
+    /// Which one is written next.
+    next: usize,
+}
+
+/// The newest checkpoint that is whole.
+#[derive(Debug)]
+pub struct Found {
+    /// Its content.
+    pub checkpoint: Checkpoint,
+    /// Its file.
+    pub path: PathBuf,
+    /// What is wrong with the other file.
+    pub damaged: Option<StorageError>,
+}
+
+impl Pair {
+    /// The files for the result file `result`; nothing is read or written.
+    #[must_use]
+    pub fn beside(result: &Path) -> Self {
+        let paths = SUFFIXES.map(|suffix| {
+            let mut name = OsString::from(result);
+            name.push(suffix);
+            PathBuf::from(name)
+        });
+        Self { result: result.to_path_buf(), paths, next: 0 }
+    }
+
+    /// The newest checkpoint, if there is any; the next one is then written to the other file.
+    ///
+    /// # Errors
+    /// [`StorageError`] if files are there and none of them is whole.
+    pub fn newest(&mut self) -> Result<Option<Found>, StorageError> {
+        let mut newest: Option<(usize, Checkpoint)> = None;
+        let mut damaged = None;
+        for (index, path) in self.paths.iter().enumerate() {
+            match read(path) {
+                Ok(None) => {}
+                Ok(Some(checkpoint)) => {
+                    let steps = checkpoint.memory.steps();
+                    if newest.as_ref().is_none_or(|(_, other)| other.memory.steps() < steps) {
+                        newest = Some((index, checkpoint));
+                    }
+                }
+                Err(error) => damaged = Some(error),
+            }
+        }
+        match (newest, damaged) {
+            (Some((index, checkpoint)), damaged) => {
+                self.next = 1 - index;
+                Ok(Some(Found { checkpoint, path: self.paths[index].clone(), damaged }))
+            }
+            (None, Some(error)) => Err(error),
+            (None, None) => Ok(None),
+        }
+    }
+
+    /// Fails if a run was stopped here, unless it may be replaced: then its checkpoints go.
+    ///
+    /// # Errors
+    /// [`StorageError::Unfinished`], or what [`Pair::newest`] says.
+    pub fn start_anew(&mut self, replace: bool) -> Result<(), StorageError> {
+        if replace {
+            return self.remove();
+        }
+        match self.newest()? {
+            None => Ok(()),
+            Some(Found { checkpoint, .. }) => Err(StorageError::Unfinished {
+                path: self.result.clone(),
+                steps: checkpoint.memory.steps(),
+                time: checkpoint.memory.time(),
+            }),
+        }
+    }
+
+    /// Saves `simulation`; the checkpoint before this one stays.
+    ///
+    /// # Errors
+    /// [`StorageError`]; both files are then as they were.
+    pub fn write(&mut self, simulation: &Simulation) -> Result<(), StorageError> {
+        atomic_file::write(&self.paths[self.next], &encode(simulation), true)?;
+        self.next = 1 - self.next;
+        Ok(())
+    }
+
+    /// Removes both files: the run is done.
+    ///
+    /// # Errors
+    /// [`StorageError`] if one is there and cannot be removed.
+    pub fn remove(&self) -> Result<(), StorageError> {
+        for path in &self.paths {
+            match fs::remove_file(path) {
+                Err(reason) if reason.kind() != ErrorKind::NotFound => {
+                    return Err(StorageError::system(path, Operation::Remove, reason));
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// The result file.
+    #[must_use]
+    pub fn result(&self) -> &Path {
+        &self.result
+    }
+}
+
+fn read(path: &Path) -> Result<Option<Checkpoint>, StorageError> {
+    match fs::read(path) {
+        Ok(bytes) => decode(&bytes, path).map(Some),
+        Err(reason) if reason.kind() == ErrorKind::NotFound => Ok(None),
+        Err(reason) => Err(StorageError::system(path, Operation::Read, reason)),
+    }
+}

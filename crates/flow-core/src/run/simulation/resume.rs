@@ -1,0 +1,154 @@
+//! What a simulation must know to go on, in another process, as if it had never stopped.
+
+use serde::{Deserialize, Serialize};
+
+use super::Simulation;
+use crate::integrator::{self, Adaptive, AdaptiveOptions, Bdf, Counters, Problem, Stepper};
+use crate::run::equilibrium::Equilibrium;
+use crate::run::frames::Start;
+use crate::run::membrane::MembraneMemory;
+use crate::run::record::{Frame, StepLog, StopReason};
+use crate::run::scene::Scene;
+use crate::run::setup_error::SetupError;
+
+/// The state of a simulation without its frames and its log of steps.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Memory {
+    integration: integrator::Memory,
+    energy: f64,
+    counters: Counters,
+    membrane: MembraneMemory,
+    start: Start,
+    scheduled_frames: usize,
+    closure_defect: f64,
+    allowed_crossings: Option<usize>,
+    equilibrium: Option<Equilibrium>,
+}
+
+impl Memory {
+    /// Accepted steps so far.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.counters.steps
+    }
+
+    /// Time of the last accepted state.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.integration.points.first().map_or(0.0, |(time, _)| *time)
+    }
+
+    /// Frames of the schedule so far, the initial one included.
+    #[must_use]
+    pub fn frames(&self) -> usize {
+        self.scheduled_frames
+    }
+}
+
+/// Why a simulation cannot go on from a memory.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ResumeError {
+    /// The scene makes no initial state.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// The numbers do not belong to the scene.
+    #[error(
+        "the checkpoint does not fit its scene: {item}; it was written by another version, or is damaged: run the scene \
+         anew"
+    )]
+    Foreign {
+        /// What does not fit.
+        item: &'static str,
+    },
+}
+
+impl Simulation {
+    /// What it takes to go on from the last accepted state. A run that was interrupted goes on from there.
+    #[must_use]
+    pub fn memory(&self) -> Memory {
+        let seconds = self.record.counters.integration_seconds;
+        Memory {
+            integration: self.integration.stepper().memory(),
+            energy: self.integration.energy(),
+            counters: Counters { integration_seconds: seconds, ..*self.integration.counters() },
+            membrane: self.membrane.memory(),
+            start: self.start,
+            scheduled_frames: self.scheduled_frames,
+            closure_defect: self.closure_defect,
+            allowed_crossings: self.allowed_crossings,
+            equilibrium: self.equilibrium.clone(),
+        }
+    }
+
+    /// The scene as given and as resolved.
+    #[must_use]
+    pub fn scene_texts(&self) -> (&str, &str) {
+        (&self.record.scene, &self.record.resolved_scene)
+    }
+
+    /// Why it stopped, if it has.
+    #[must_use]
+    pub fn stop_reason(&self) -> Option<&StopReason> {
+        self.stopped.as_ref()
+    }
+
+    /// Log of the steps so far.
+    #[must_use]
+    pub fn steps(&self) -> &StepLog {
+        &self.record.steps
+    }
+
+    /// The simulation of `scene` that left `memory`, `frames` and `steps` behind. Its further states are those of the
+    /// unbroken run, bit for bit, on the same machine and with the same version of the program.
+    ///
+    /// # Errors
+    /// [`ResumeError`] if they do not belong to the scene.
+    pub fn resume(
+        scene: &Scene,
+        memory: Memory,
+        mut frames: Vec<Frame>,
+        steps: StepLog,
+    ) -> Result<Self, ResumeError> {
+        let foreign = |item| ResumeError::Foreign { item };
+        let mut simulation = Self::new(scene)?;
+        let turning_number = simulation.membrane.turning_number();
+        if let Some(switched) = simulation.switches.skip(memory.counters.remaps, turning_number) {
+            (simulation.membrane, simulation.diagnostics) = switched?;
+        }
+        if !memory.integration.fits(simulation.membrane.size()) {
+            return Err(foreign("the past states"));
+        }
+        let needed = memory.integration.factorisation.gamma.is_some();
+        if !simulation.membrane.resume(memory.membrane, needed) {
+            return Err(foreign("the state of the linear solver"));
+        }
+        if memory.scheduled_frames == 0 || frames.len() < memory.scheduled_frames {
+            return Err(foreign("the frames"));
+        }
+        frames.truncate(memory.scheduled_frames);
+        let first = simulation.record.frames.first().map(|first| first.curvature.len());
+        if frames.iter().any(|frame| Some(frame.curvature.len()) != first) {
+            return Err(foreign("the number of nodes of the frames"));
+        }
+        if steps.time.len() as u64 != memory.counters.steps {
+            return Err(foreign("the log of steps"));
+        }
+        let stepper = Bdf::resume(&simulation.membrane, memory.integration, simulation.tolerance);
+        if stepper.time() > simulation.end {
+            return Err(foreign("the time"));
+        }
+        let end = simulation.end.min(simulation.switches.next_time());
+        let options = AdaptiveOptions { end, ..*simulation.integration.options() };
+        simulation.integration = Adaptive::new(stepper, options, memory.energy, memory.counters);
+        simulation.record.counters = memory.counters;
+        simulation.record.frames = frames;
+        simulation.record.steps = steps;
+        simulation.start = memory.start;
+        simulation.scheduled_frames = memory.scheduled_frames;
+        simulation.closure_defect = memory.closure_defect;
+        simulation.allowed_crossings = memory.allowed_crossings;
+        simulation.equilibrium = memory.equilibrium;
+        Ok(simulation)
+    }
+}
