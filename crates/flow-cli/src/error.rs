@@ -29,8 +29,17 @@ pub enum CliError {
     #[error("cannot watch for signals: {0}")]
     Signals(io::Error),
     /// A signal or a limit stopped the run.
-    #[error("stopped at t = {time:.6e} by a signal; the run up to there is in {}", .output.display())]
+    #[error(
+        "stopped at t = {time:.6e} by a signal or --max-wall; the run up to there is in {0}; go on with `curveflow resume \
+         {0}`", .output.display()
+    )]
     Stopped { time: f64, output: PathBuf },
+    /// The checkpoint is of another scene.
+    #[error(
+        "{}: the run that was stopped there is of another scene, or of one that has been changed; go on with it by \
+         `curveflow resume`, or start anew with --replace", .output.display()
+    )]
+    OtherScene { output: PathBuf },
     /// The file to be read is not ours, or damaged.
     #[error(transparent)]
     Unreadable(StorageError),

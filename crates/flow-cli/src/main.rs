@@ -12,7 +12,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use commands::{check, info, plot, run, scenes};
+use commands::{check, info, plot, resume, run, scenes};
 use error::CliError;
 
 /// Gradient flows of energies of closed planar curves that carry embedded densities.
@@ -26,6 +26,7 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Args),
+    Resume(resume::Args),
     Check(check::Args),
     Info(info::Args),
     Plot(plot::Args),
@@ -36,6 +37,7 @@ impl Command {
     fn execute(&self) -> Result<(), CliError> {
         match self {
             Self::Run(args) => run::execute(args),
+            Self::Resume(args) => resume::execute(args),
             Self::Check(args) => check::execute(args),
             Self::Info(args) => info::execute(args),
             Self::Plot(args) => plot::execute(args),
@@ -68,7 +70,7 @@ fn exit_code(error: &CliError) -> u8 {
         CliError::Numerical { .. } => 4,
         CliError::Storage(_) | CliError::Stdout(_) | CliError::Signals(_) => 5,
         CliError::Stopped { .. } => 6,
-        CliError::Unreadable(_) => 7,
+        CliError::Unreadable(_) | CliError::OtherScene { .. } => 7,
     }
 }
 

@@ -20,14 +20,15 @@ const TERMINAL_INTERVAL: Duration = Duration::from_millis(100);
 #[derive(Debug)]
 pub struct Reporter {
     stop: Arc<AtomicBool>,
+    limit: Option<Instant>,
     line: Option<ProgressBar>,
     interval: Option<Duration>,
     shown: Instant,
 }
 
 impl Reporter {
-    /// A reporter that stops the run once `stop` is set.
-    pub fn new(quiet: bool, stop: Arc<AtomicBool>) -> Self {
+    /// A reporter that stops the run once `stop` is set, or at the time `limit`.
+    pub fn new(quiet: bool, stop: Arc<AtomicBool>, limit: Option<Instant>) -> Self {
         let terminal = !quiet && std::io::stderr().is_terminal();
         let line = terminal.then(|| {
             let style = ProgressStyle::with_template("{spinner} {msg}");
@@ -35,7 +36,7 @@ impl Reporter {
             line.with_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()))
         });
         let interval = (!quiet).then_some(if terminal { TERMINAL_INTERVAL } else { PLAIN_INTERVAL });
-        Self { stop, line, interval, shown: Instant::now() }
+        Self { stop, limit, line, interval, shown: Instant::now() }
     }
 
     /// Takes the line away.
@@ -68,6 +69,8 @@ impl Observer for Reporter {
                 None => print::talk(&message),
             }
         }
-        if self.stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        let over =
+            self.stop.load(Ordering::Relaxed) || self.limit.is_some_and(|limit| Instant::now() >= limit);
+        if over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }

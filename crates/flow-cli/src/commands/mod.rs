@@ -1,8 +1,10 @@
 //! One file per command: parse, call, print.
 
 pub mod check;
+mod conduct;
 pub mod info;
 pub mod plot;
+pub mod resume;
 pub mod run;
 mod scene_args;
 pub mod scenes;

@@ -1,19 +1,15 @@
 //! `curveflow run SCENE`: integrate one scene and write its result file.
 
-use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
-use std::time::Instant;
+use std::path::{Path, PathBuf};
 
 use flow_core::output::atomic_file::check_writable;
-use flow_core::output::hdf5_file;
-use flow_core::run::{Record, StopReason, run};
+use flow_core::output::checkpoint::{Found, Lock, Pair};
+use flow_core::run::{Scene, Simulation};
 
-use super::info;
+use super::conduct::Conduct;
+use super::resume;
 use super::scene_args::SceneArgs;
 use crate::error::CliError;
-use crate::print;
-use crate::progress::Reporter;
 
 /// Integrate a scene and write its result file.
 #[derive(Debug, clap::Args)]
@@ -23,76 +19,45 @@ pub struct Args {
     /// Result file to write [default: the scene's name with .h5, in the current folder].
     #[arg(short, long, value_name = "OUT.h5")]
     pub output: Option<PathBuf>,
-    /// Replace an existing result file.
-    #[arg(long)]
+    /// Replace an existing result file, and the checkpoints of a run that was stopped.
+    #[arg(long, conflicts_with = "resume")]
     pub replace: bool,
-    /// Print the summary as JSON.
+    /// Go on where a run of the same scene was stopped; start if there was none, and do nothing if it is done.
     #[arg(long)]
-    pub json: bool,
-    /// Show no progress and print no summary.
-    #[arg(short, long)]
-    pub quiet: bool,
+    pub resume: bool,
+    #[command(flatten)]
+    pub conduct: Conduct,
 }
 
 /// Runs the scene. What was computed is written also if the run fails or is stopped.
 pub fn execute(args: &Args) -> Result<(), CliError> {
     let scene = args.scene.read()?;
     let output = args.output.clone().unwrap_or_else(|| args.scene.stem().with_extension("h5"));
+    let mut pair = Pair::beside(&output);
+    if args.resume {
+        return go_on(args, &scene, &output, pair);
+    }
     check_writable(&output, args.replace)?;
-    let clock = Instant::now();
-    let mut reporter = Reporter::new(args.quiet, stop_flag()?);
-    let record =
-        run(&scene, &mut reporter).map_err(|error| CliError::InvalidScene { source: Box::new(error) })?;
-    reporter.finish();
-    hdf5_file::write(&record, &output, args.replace)?;
-    let seconds = clock.elapsed().as_secs_f64();
-    if args.json {
-        print::data(&info::json(&record))?;
-    } else if !args.quiet {
-        print::talk(&closing_line(&record, seconds));
-        print::data(&output.display().to_string())?;
-    }
-    let time = record.frames.last().map_or(0.0, |frame| frame.time);
-    match record.stop_reason {
-        StopReason::EndTime | StopReason::Equilibrium | StopReason::Contact => Ok(()),
-        StopReason::Interrupted => Err(CliError::Stopped { time, output }),
-        StopReason::Failed(message) => Err(CliError::Numerical { message, output }),
-    }
+    let _lock = Lock::of(&output)?;
+    pair.start_anew(args.replace)?;
+    args.conduct.run(simulation(&scene)?, pair, args.replace)
 }
 
-/// Raised by SIGINT and SIGTERM; a second signal ends the process at once.
-fn stop_flag() -> Result<Arc<AtomicBool>, CliError> {
-    let stop = Arc::new(AtomicBool::new(false));
-    for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
-        signal_hook::flag::register_conditional_shutdown(signal, 6, Arc::clone(&stop))
-            .and_then(|_| signal_hook::flag::register(signal, Arc::clone(&stop)))
-            .map_err(CliError::Signals)?;
-    }
-    Ok(stop)
+fn simulation(scene: &Scene) -> Result<Simulation, CliError> {
+    Simulation::new(scene).map_err(|error| CliError::InvalidScene { source: Box::new(error) })
 }
 
-fn closing_line(record: &Record, seconds: f64) -> String {
-    let (Some(first), Some(last)) = (record.frames.first(), record.frames.last()) else {
-        return String::new();
-    };
-    let ending = match &record.stop_reason {
-        StopReason::Equilibrium => "at equilibrium",
-        StopReason::EndTime => "end time reached",
-        StopReason::Contact => "in contact with itself",
-        StopReason::Interrupted => "interrupted",
-        StopReason::Failed(_) => "failed",
-    };
-    format!(
-        "{ending}: t = {:.6e}, energy {:.6} → {:.6}, length {:.6} → {:.6}; {} nodes, {} steps, {:.3} s ({:.3} s \
-         integration)",
-        last.time,
-        first.energy,
-        last.energy,
-        first.length,
-        last.length,
-        record.nodes(),
-        record.counters.steps,
-        seconds,
-        record.counters.integration_seconds,
-    )
+fn go_on(args: &Args, scene: &Scene, output: &Path, mut pair: Pair) -> Result<(), CliError> {
+    let _lock = Lock::of(output)?;
+    match pair.newest()? {
+        Some(Found { checkpoint, .. }) if checkpoint.scene.given != scene.text() => {
+            Err(CliError::OtherScene { output: output.to_path_buf() })
+        }
+        Some(found) => resume::go_on(&args.conduct, found, pair),
+        None if output.exists() => resume::already_done(&args.conduct, output),
+        None => {
+            check_writable(output, false)?;
+            args.conduct.run(simulation(scene)?, pair, false)
+        }
+    }
 }

@@ -1,0 +1,111 @@
+//! Takes a run to its end, with checkpoints beside its result file, and says how it went.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::{Duration, Instant};
+
+use flow_core::output::checkpoint::{Pair, Saving, run_saving};
+use flow_core::output::hdf5_file;
+use flow_core::run::{Record, Simulation, StopReason};
+
+use super::info;
+use crate::error::CliError;
+use crate::print;
+use crate::progress::Reporter;
+
+/// How a run is watched and saved.
+#[derive(Debug, clap::Args)]
+pub struct Conduct {
+    /// Seconds between two checkpoints, which are written beside the result file until that is done.
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = seconds)]
+    pub checkpoint: Duration,
+    /// Stop after this time with a checkpoint (exit code 6).
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub max_wall: Option<Duration>,
+    /// Print the summary as JSON.
+    #[arg(long)]
+    pub json: bool,
+    /// Show no progress and print no summary.
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+fn seconds(text: &str) -> Result<Duration, String> {
+    let wrong = || format!("`{text}` is not a time in seconds of at least 0; try 60");
+    let value: f64 = text.parse().map_err(|_| wrong())?;
+    Duration::try_from_secs_f64(value).map_err(|_| wrong())
+}
+
+impl Conduct {
+    /// Runs `simulation`; its result goes to the file of `pair`, also if the run fails or is stopped, and its checkpoints
+    /// go once it is done.
+    pub fn run(&self, simulation: Simulation, pair: Pair, replace: bool) -> Result<(), CliError> {
+        let clock = Instant::now();
+        let limit = self.max_wall.map(|limit| clock + limit);
+        let mut reporter = Reporter::new(self.quiet, stop_flag()?, limit);
+        let mut saving = Saving { pair, interval: self.checkpoint };
+        let record = run_saving(simulation, &mut reporter, &mut saving)?;
+        reporter.finish();
+        let output = saving.pair.result();
+        hdf5_file::write(&record, output, replace)?;
+        if record.stop_reason != StopReason::Interrupted {
+            saving.pair.remove()?;
+        }
+        let seconds = clock.elapsed().as_secs_f64();
+        if self.json {
+            print::data(&info::json(&record))?;
+        } else if !self.quiet {
+            print::talk(&closing_line(&record, seconds));
+            print::data(&output.display().to_string())?;
+        }
+        outcome(record, output)
+    }
+}
+
+fn outcome(record: Record, output: &Path) -> Result<(), CliError> {
+    let time = record.frames.last().map_or(0.0, |frame| frame.time);
+    let output = output.to_path_buf();
+    match record.stop_reason {
+        StopReason::EndTime | StopReason::Equilibrium | StopReason::Contact => Ok(()),
+        StopReason::Interrupted => Err(CliError::Stopped { time, output }),
+        StopReason::Failed(message) => Err(CliError::Numerical { message, output }),
+    }
+}
+
+/// Raised by SIGINT and SIGTERM; a second signal ends the process at once.
+fn stop_flag() -> Result<Arc<AtomicBool>, CliError> {
+    let stop = Arc::new(AtomicBool::new(false));
+    for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
+        signal_hook::flag::register_conditional_shutdown(signal, 6, Arc::clone(&stop))
+            .and_then(|_| signal_hook::flag::register(signal, Arc::clone(&stop)))
+            .map_err(CliError::Signals)?;
+    }
+    Ok(stop)
+}
+
+fn closing_line(record: &Record, seconds: f64) -> String {
+    let (Some(first), Some(last)) = (record.frames.first(), record.frames.last()) else {
+        return String::new();
+    };
+    let ending = match &record.stop_reason {
+        StopReason::Equilibrium => "at equilibrium",
+        StopReason::EndTime => "end time reached",
+        StopReason::Contact => "in contact with itself",
+        StopReason::Interrupted => "interrupted",
+        StopReason::Failed(_) => "failed",
+    };
+    format!(
+        "{ending}: t = {:.6e}, energy {:.6} → {:.6}, length {:.6} → {:.6}; {} nodes, {} steps, {:.3} s ({:.3} s \
+         integration)",
+        last.time,
+        first.energy,
+        last.energy,
+        first.length,
+        last.length,
+        record.nodes(),
+        record.counters.steps,
+        seconds,
+        record.counters.integration_seconds,
+    )
+}

@@ -1,0 +1,71 @@
+//! `curveflow resume OUT.h5`: go on with a run that was stopped.
+
+use std::path::{Path, PathBuf};
+
+use flow_core::output::atomic_file::check_writable;
+use flow_core::output::checkpoint::{Found, Lock, Pair};
+use flow_core::output::{StorageError, hdf5_file};
+use flow_core::run::StopReason;
+
+use super::conduct::Conduct;
+use super::info;
+use crate::error::CliError;
+use crate::print;
+
+/// Go on with a run that was stopped, from its checkpoint.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Result file of the run; the checkpoints lie beside it.
+    #[arg(value_name = "OUT.h5")]
+    pub output: PathBuf,
+    #[command(flatten)]
+    pub conduct: Conduct,
+}
+
+/// Goes on to the end of the run.
+pub fn execute(args: &Args) -> Result<(), CliError> {
+    let mut pair = Pair::beside(&args.output);
+    let _lock = Lock::of(&args.output)?;
+    match pair.newest()? {
+        Some(found) => go_on(&args.conduct, found, pair),
+        None if args.output.exists() => already_done(&args.conduct, &args.output),
+        None => Err(StorageError::NoCheckpoint { path: args.output.clone() }.into()),
+    }
+}
+
+/// Goes on from what was found.
+pub fn go_on(conduct: &Conduct, found: Found, pair: Pair) -> Result<(), CliError> {
+    check_writable(pair.result(), true)?;
+    if let Some(damaged) = &found.damaged {
+        print::talk(&format!(
+            "warning: {damaged}; going on from the other checkpoint, {}",
+            found.path.display()
+        ));
+    }
+    if !conduct.quiet {
+        let memory = &found.checkpoint.memory;
+        print::talk(&format!("going on at t = {:.6e}, after {} steps", memory.time(), memory.steps()));
+    }
+    let simulation = found.checkpoint.simulation(&found.path)?;
+    conduct.run(simulation, pair, true)
+}
+
+/// There is a result and no checkpoint: the run came to its end, or its checkpoints were removed.
+pub fn already_done(conduct: &Conduct, output: &Path) -> Result<(), CliError> {
+    let record = hdf5_file::read(output)?;
+    let path = output.to_path_buf();
+    match &record.stop_reason {
+        StopReason::Interrupted => return Err(StorageError::NoCheckpoint { path }.into()),
+        StopReason::Failed(message) => {
+            return Err(CliError::Numerical { message: message.clone(), output: path });
+        }
+        _ => {}
+    }
+    if conduct.json {
+        print::data(&info::json(&record))?;
+    } else if !conduct.quiet {
+        print::talk(&format!("nothing to do: {}", record.stop_reason.message()));
+        print::data(&output.display().to_string())?;
+    }
+    Ok(())
+}

@@ -1,0 +1,178 @@
+//! Runs of the command that are stopped or killed, and go on.
+#![allow(clippy::unwrap_used)] // a failed test may panic
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
+
+use flow_core::output::hdf5_file;
+use flow_core::run::Record;
+
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("curveflow-{name}-{}", std::process::id()));
+        let _ = fs::remove_dir_all(&path);
+        fs::create_dir_all(&path).unwrap();
+        let shipped = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/three_fold.toml");
+        fs::copy(shipped, path.join("scene.toml")).unwrap();
+        Self(path)
+    }
+
+    fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_curveflow"));
+        command.args(arguments).current_dir(&self.0).stdin(Stdio::null());
+        command
+    }
+
+    fn call(&self, arguments: &[&str]) -> Output {
+        self.command(arguments).output().unwrap()
+    }
+
+    fn record(&self, name: &str) -> Record {
+        hdf5_file::read(&self.0.join(name)).unwrap()
+    }
+
+    fn names(&self) -> Vec<String> {
+        let entries = fs::read_dir(&self.0).unwrap();
+        let mut names: Vec<_> =
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().unwrap_or(-1)
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn assert_same(one: &Record, other: &Record) {
+    assert_eq!(one.steps, other.steps);
+    assert!(one.frames == other.frames);
+    assert_eq!(one.stop_reason, other.stop_reason);
+    assert_eq!((&one.scene, &one.resolved_scene), (&other.scene, &other.resolved_scene));
+}
+
+#[test]
+fn a_killed_run_goes_on_to_the_same_file() {
+    let folder = Folder::new("killed");
+    assert_eq!(code(&folder.call(&["run", "scene.toml", "-o", "whole.h5", "-q"])), 0);
+    let whole = folder.record("whole.h5");
+    let arguments = ["run", "scene.toml", "-o", "cut.h5", "-q", "--resume", "--checkpoint", "0"];
+    let mut kills = 0;
+    for attempt in 0.. {
+        let mut child = folder.command(&arguments).stderr(Stdio::piped()).spawn().unwrap();
+        sleep(Duration::from_millis(15 + 4 * attempt));
+        let done = child.try_wait().unwrap().is_some();
+        child.kill().unwrap();
+        let output = child.wait_with_output().unwrap();
+        if done {
+            assert_eq!(code(&output), 0, "{}", said(&output));
+            break;
+        }
+        kills += 1;
+        assert!(attempt < 200, "no progress");
+    }
+    assert_same(&whole, &folder.record("cut.h5"));
+    // A killed process may leave its temporary file, nothing else.
+    let left: Vec<_> = folder.names().into_iter().filter(|name| !name.ends_with(".partial")).collect();
+    assert_eq!(left.iter().filter(|name| !name.ends_with(".lock")).count(), 3, "{left:?}");
+    println!("{kills} kills");
+}
+
+#[test]
+fn a_run_stopped_by_its_limit_goes_on_by_the_same_command() {
+    let folder = Folder::new("limit");
+    let arguments = ["run", "scene.toml", "-o", "out.h5", "--resume"];
+    let stopped = folder.call(&[&arguments[..], &["--max-wall", "0"]].concat());
+    assert_eq!(code(&stopped), 6, "{}", said(&stopped));
+    assert!(said(&stopped).contains("curveflow resume out.h5"), "{}", said(&stopped));
+    assert_eq!(folder.names(), ["out.h5", "out.h5.checkpoint-a", "scene.toml"]);
+
+    let other = folder.call(&[&arguments[..], &["--set", "time.end=50.0"]].concat());
+    assert_eq!(code(&other), 7);
+    assert!(said(&other).contains("another scene"), "{}", said(&other));
+
+    let anew = folder.call(&["run", "scene.toml", "-o", "out.h5"]);
+    assert_eq!(code(&anew), 5, "{}", said(&anew));
+
+    let done = folder.call(&arguments);
+    assert_eq!(code(&done), 0, "{}", said(&done));
+    assert_eq!(folder.names(), ["out.h5", "scene.toml"]);
+    let again = folder.call(&arguments);
+    assert_eq!(code(&again), 0);
+    assert!(said(&again).contains("nothing to do"), "{}", said(&again));
+}
+
+#[test]
+fn a_stopped_run_is_not_thrown_away_unasked() {
+    let folder = Folder::new("unasked");
+    assert_eq!(code(&folder.call(&["run", "scene.toml", "-o", "out.h5", "--max-wall", "0"])), 6);
+    fs::remove_file(folder.0.join("out.h5")).unwrap();
+    let anew = folder.call(&["run", "scene.toml", "-o", "out.h5"]);
+    assert_eq!(code(&anew), 5);
+    assert!(said(&anew).contains("stopped before its end"), "{}", said(&anew));
+    let replaced = folder.call(&["run", "scene.toml", "-o", "out.h5", "--replace"]);
+    assert_eq!(code(&replaced), 0, "{}", said(&replaced));
+    assert_eq!(folder.names(), ["out.h5", "scene.toml"]);
+}
+
+#[test]
+fn without_a_whole_checkpoint_nothing_goes_on() {
+    let folder = Folder::new("damaged");
+    assert_eq!(code(&folder.call(&["resume", "out.h5"])), 7);
+    assert_eq!(code(&folder.call(&["run", "scene.toml", "-o", "out.h5", "--max-wall", "0"])), 6);
+    let checkpoint = folder.0.join("out.h5.checkpoint-a");
+    let mut bytes = fs::read(&checkpoint).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(&checkpoint, &bytes).unwrap();
+    let damaged = folder.call(&["resume", "out.h5"]);
+    assert_eq!(code(&damaged), 7);
+    assert!(said(&damaged).contains("damaged"), "{}", said(&damaged));
+    fs::remove_file(&checkpoint).unwrap();
+    let missing = folder.call(&["resume", "out.h5"]);
+    assert_eq!(code(&missing), 7);
+    assert!(said(&missing).contains("no checkpoint"), "{}", said(&missing));
+}
+
+#[test]
+fn of_two_runs_to_one_file_the_second_is_refused() {
+    let folder = Folder::new("two");
+    let long = ["run", "scene.toml", "-o", "out.h5", "-q", "--set", "accuracy.nodes=8192", "--set"];
+    let long = [&long[..], &["accuracy.tolerance=1e-10"]].concat();
+    let mut first = folder.command(&long).stderr(Stdio::null()).spawn().unwrap();
+    wait_for(&folder.0.join("out.h5.lock"));
+    sleep(Duration::from_millis(50));
+    let second = folder.call(&["run", "scene.toml", "-o", "out.h5", "-q"]);
+    first.kill().unwrap();
+    first.wait().unwrap();
+    assert_eq!(code(&second), 5, "{}", said(&second));
+    assert!(said(&second).contains("another run writes"), "{}", said(&second));
+    // The lock of a killed process is free.
+    let third = folder.call(&["run", "scene.toml", "-o", "out.h5", "-q", "--max-wall", "0"]);
+    assert_eq!(code(&third), 6, "{}", said(&third));
+}
+
+fn wait_for(path: &Path) {
+    for _ in 0..1000 {
+        if path.exists() {
+            return;
+        }
+        sleep(Duration::from_millis(10));
+    }
+    panic!("{} does not appear", path.display());
+}
