@@ -12,6 +12,7 @@ from .errors import BugError, CurveflowError, SceneError, SetupError, StorageErr
 from .result import Result, open
 from .running import Progress, run
 from .scene import Scene, scenes
+from .simulation import Simulation, State
 from .system import System
 
 __all__ = [
@@ -22,6 +23,8 @@ __all__ = [
     "Scene",
     "SceneError",
     "SetupError",
+    "Simulation",
+    "State",
     "StorageError",
     "System",
     "open",

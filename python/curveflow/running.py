@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 from . import _curveflow
@@ -52,22 +53,29 @@ def run(
     Raises:
         SetupError: the scene makes no initial state.
     """
+    with watching(progress, callback) as (watch, interval):
+        result = Result(_curveflow.run(scene._native, watch, interval), scene)
+    if progress:
+        _Line().end(f"{result.message} (t = {result.time[-1]:.6g}, {result.stats['steps']} steps)")
+    return result
+
+
+@contextmanager
+def watching(
+    progress: bool, callback: Callable[[Progress], object] | None
+) -> Iterator[tuple[Callable[..., None] | None, float]]:
+    """What the extension calls during a run, and how often; takes the line of progress away afterwards."""
     line = _Line() if progress else None
     watch, interval = None, 0.0
     if callback is not None:
         watch = _both(callback, line) if line else callback
     elif line:
         watch, interval = line.show, 0.1
-    native = _with_progress(watch) if watch else None
     try:
-        result = Result(_curveflow.run(scene._native, native, interval), scene)
-    except BaseException:
+        yield (_with_progress(watch) if watch else None), interval
+    finally:
         if line:
             line.end("")
-        raise
-    if line:
-        line.end(f"{result.message} (t = {result.time[-1]:.6g}, {result.stats['steps']} steps)")
-    return result
 
 
 def _with_progress(watch: Callable[[Progress], object]) -> Callable[..., None]:

@@ -9,6 +9,7 @@ mod arrays;
 mod error;
 mod record;
 mod scene;
+mod simulation;
 mod system;
 mod watcher;
 
@@ -19,6 +20,8 @@ mod _curveflow {
     use super::record::{Record, read, run};
     #[pymodule_export]
     use super::scene::{Scene, shipped};
+    #[pymodule_export]
+    use super::simulation::Simulation;
     #[pymodule_export]
     use super::system::System;
 }

@@ -180,6 +180,11 @@ impl Record {
 }
 
 impl Record {
+    /// Wraps a record.
+    pub fn new(core: core::Record) -> Self {
+        Self { core }
+    }
+
     fn per_frame<'py>(&self, py: Python<'py>, value: impl Fn(&Frame) -> f64) -> Vector<'py> {
         vector(py, self.core.frames.iter().map(value).collect())
     }

@@ -96,6 +96,11 @@ impl<S: Stepper> Adaptive<S> {
         &self.stepper
     }
 
+    /// Lets the steps end at `end` at the latest.
+    pub fn set_end(&mut self, end: f64) {
+        self.options.end = end;
+    }
+
     /// Energy of the last accepted state.
     #[must_use]
     pub fn energy(&self) -> f64 {

@@ -52,8 +52,8 @@ impl Pair {
         let mut damaged = None;
         for (index, path) in self.paths.iter().enumerate() {
             match read(path) {
-                Ok(None) => {}
-                Ok(Some(checkpoint)) => {
+                Err(StorageError::System { reason, .. }) if reason.kind() == ErrorKind::NotFound => {}
+                Ok(checkpoint) => {
                     let steps = checkpoint.memory.steps();
                     if newest.as_ref().is_none_or(|(_, other)| other.memory.steps() < steps) {
                         newest = Some((index, checkpoint));
@@ -123,10 +123,11 @@ impl Pair {
     }
 }
 
-fn read(path: &Path) -> Result<Option<Checkpoint>, StorageError> {
-    match fs::read(path) {
-        Ok(bytes) => decode(&bytes, path).map(Some),
-        Err(reason) if reason.kind() == ErrorKind::NotFound => Ok(None),
-        Err(reason) => Err(StorageError::system(path, Operation::Read, reason)),
-    }
+/// The checkpoint in a file.
+///
+/// # Errors
+/// [`StorageError`] if it cannot be read, is no checkpoint or is damaged.
+pub fn read(path: &Path) -> Result<Checkpoint, StorageError> {
+    let bytes = fs::read(path).map_err(|reason| StorageError::system(path, Operation::Read, reason))?;
+    decode(&bytes, path)
 }

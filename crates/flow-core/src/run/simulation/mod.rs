@@ -16,7 +16,7 @@ use crate::run::equilibrium::Equilibrium;
 use crate::run::frames::{Start, frame};
 use crate::run::membrane::Membrane;
 use crate::run::observer::{Observer, Progress};
-use crate::run::record::{Frame, Record, StopReason};
+use crate::run::record::{Frame, Record, StepLog, StopReason};
 use crate::run::scene::Scene;
 use crate::run::setup_error::SetupError;
 use crate::run::switches::Switches;
@@ -34,6 +34,8 @@ pub struct Simulation {
     tolerance: f64,
     start: Start,
     end: f64,
+    /// Where a step shall end before the end; infinite if nowhere.
+    until: f64,
     equilibrium: Option<Equilibrium>,
     frame_times: Vec<f64>,
     /// Frames saved so far, the initial one and those at [`Self::frame_times`].
@@ -100,6 +102,79 @@ impl Simulation {
         self.stopped.is_none()
     }
 
+    /// At most `steps` steps until `time`, where the last of them ends, or until the run stops. Returns whether there is
+    /// more to do.
+    pub fn run_until(&mut self, time: f64, steps: u64, observer: &mut dyn Observer) -> bool {
+        self.until = time;
+        self.integration.set_end(self.next_stop());
+        let last = self.counters().steps.saturating_add(steps);
+        while self.time() < time && self.counters().steps < last && self.step(observer) {}
+        self.until = f64::INFINITY;
+        self.integration.set_end(self.next_stop());
+        self.stopped.is_none()
+    }
+
+    /// Where the steps must end next: at the end, at a switch, or where the caller wants it.
+    fn next_stop(&self) -> f64 {
+        self.end.min(self.switches.next_time()).min(self.until)
+    }
+
+    /// Takes an interruption back, so that the run can go on.
+    pub fn go_on(&mut self) {
+        if self.stopped == Some(StopReason::Interrupted) {
+            self.stopped = None;
+            self.record.frames.truncate(self.scheduled_frames);
+        }
+    }
+
+    /// The state at hand as a frame; it is not saved.
+    pub fn frame(&mut self) -> Frame {
+        self.scratch.copy_from_slice(self.integration.stepper().state());
+        let (time, integrals) = (self.integration.stepper().time(), self.integration.integrals());
+        frame(
+            &mut self.membrane,
+            &mut self.diagnostics,
+            time,
+            &mut self.scratch,
+            integrals,
+            &self.start,
+            Some(self.closure_defect),
+        )
+    }
+
+    /// What there is so far, as if the run were interrupted here, without interrupting it.
+    pub fn record(&mut self) -> Record {
+        let mut frames = self.record.frames.clone();
+        if self.record.frames.last().is_some_and(|last| last.time < self.time()) {
+            frames.push(self.frame());
+        }
+        self.record_of(frames, self.record.steps.clone())
+    }
+
+    /// A record of `frames` and `steps` alone.
+    #[must_use]
+    pub fn record_of(&self, frames: Vec<Frame>, steps: StepLog) -> Record {
+        Record {
+            frames,
+            steps,
+            counters: self.counters_with_time(),
+            stop_reason: self.stopped.clone().unwrap_or(StopReason::Interrupted),
+            title: self.record.title.clone(),
+            scene: self.record.scene.clone(),
+            resolved_scene: self.record.resolved_scene.clone(),
+            energy_terms: self.record.energy_terms.clone(),
+            densities: self.record.densities.clone(),
+            fields: self.record.fields.clone(),
+            diagnostics: self.record.diagnostics.clone(),
+        }
+    }
+
+    /// Counters with the time spent.
+    fn counters_with_time(&self) -> Counters {
+        let integration_seconds = self.record.counters.integration_seconds;
+        Counters { integration_seconds, ..*self.integration.counters() }
+    }
+
     fn in_contact(&mut self) -> bool {
         let state = self.integration.stepper().state();
         self.allowed_crossings.is_some_and(|allowed| self.membrane.crossings(state) > allowed)
@@ -159,22 +234,10 @@ impl Simulation {
     fn stop(&mut self, reason: StopReason) {
         let time = self.integration.stepper().time();
         if self.record.frames.last().is_some_and(|last| last.time < time) {
-            self.scratch.copy_from_slice(self.integration.stepper().state());
-            let integrals = self.integration.integrals();
-            self.record.frames.push(frame(
-                &mut self.membrane,
-                &mut self.diagnostics,
-                time,
-                &mut self.scratch,
-                integrals,
-                &self.start,
-                Some(self.closure_defect),
-            ));
+            let last = self.frame();
+            self.record.frames.push(last);
         }
-        self.record.counters = Counters {
-            integration_seconds: self.record.counters.integration_seconds,
-            ..*self.integration.counters()
-        };
+        self.record.counters = self.counters_with_time();
         self.record.stop_reason = reason.clone();
         self.stopped = Some(reason);
     }

@@ -67,11 +67,10 @@ impl Simulation {
     /// What it takes to go on from the last accepted state. A run that was interrupted goes on from there.
     #[must_use]
     pub fn memory(&self) -> Memory {
-        let seconds = self.record.counters.integration_seconds;
         Memory {
             integration: self.integration.stepper().memory(),
             energy: self.integration.energy(),
-            counters: Counters { integration_seconds: seconds, ..*self.integration.counters() },
+            counters: self.counters_with_time(),
             membrane: self.membrane.memory(),
             start: self.start,
             scheduled_frames: self.scheduled_frames,
@@ -138,8 +137,7 @@ impl Simulation {
         if stepper.time() > simulation.end {
             return Err(foreign("the time"));
         }
-        let end = simulation.end.min(simulation.switches.next_time());
-        let options = AdaptiveOptions { end, ..*simulation.integration.options() };
+        let options = AdaptiveOptions { end: simulation.next_stop(), ..*simulation.integration.options() };
         simulation.integration = Adaptive::new(stepper, options, memory.energy, memory.counters);
         simulation.record.counters = memory.counters;
         simulation.record.frames = frames;

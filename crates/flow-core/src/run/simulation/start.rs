@@ -77,6 +77,7 @@ impl Simulation {
             tolerance: scene.accuracy.tolerance,
             start,
             end,
+            until: f64::INFINITY,
             frame_times,
             scheduled_frames: 1,
             scratch: state,

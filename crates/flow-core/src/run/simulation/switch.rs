@@ -32,8 +32,7 @@ impl Simulation {
         let integrals = Integrals::new(report.time, self.integration.integrals(), integral_rates);
         let stepper =
             Bdf::starting(&mut self.membrane, &self.scratch, integrals, self.tolerance, &mut counters);
-        let end = self.end.min(self.switches.next_time());
-        let options = AdaptiveOptions { end, ..*self.integration.options() };
+        let options = AdaptiveOptions { end: self.next_stop(), ..*self.integration.options() };
         self.integration = Adaptive::new(stepper, options, energy, counters);
         self.record.counters.integration_seconds += clock.elapsed().as_secs_f64();
     }

@@ -1,0 +1,114 @@
+//! Runs that are driven from Python, step by step.
+
+use std::path::PathBuf;
+use std::sync::{Mutex, MutexGuard};
+use std::time::Duration;
+
+use flow_core::output::{StorageError, atomic_file, checkpoint};
+use flow_core::run::{self as core, Frame, StepLog};
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+
+use crate::error::detached;
+use crate::record::Record;
+use crate::scene::Scene;
+use crate::watcher::Watcher;
+
+/// A scene under way.
+#[pyclass(frozen, module = "curveflow._curveflow")]
+pub struct Simulation {
+    core: Mutex<core::Simulation>,
+}
+
+impl Simulation {
+    fn lock(&self) -> PyResult<MutexGuard<'_, core::Simulation>> {
+        self.core.try_lock().map_err(|_| {
+            PyRuntimeError::new_err(
+                "the simulation is in use: a callback of a run cannot use it, nor another thread",
+            )
+        })
+    }
+}
+
+#[pymethods]
+impl Simulation {
+    #[new]
+    fn new(py: Python<'_>, scene: &Scene) -> PyResult<Self> {
+        let core = detached(py, || core::Simulation::new(&scene.core))?;
+        Ok(Self { core: Mutex::new(core) })
+    }
+
+    /// Goes on from a checkpoint.
+    #[staticmethod]
+    fn resume(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let core = detached::<_, StorageError>(py, || checkpoint::read(&path)?.simulation(&path))?;
+        Ok(Self { core: Mutex::new(core) })
+    }
+
+    /// The scene as given.
+    #[getter]
+    fn scene(&self) -> PyResult<String> {
+        Ok(self.lock()?.scene_texts().0.to_owned())
+    }
+
+    /// Time of the last accepted state.
+    #[getter]
+    fn time(&self) -> PyResult<f64> {
+        Ok(self.lock()?.time())
+    }
+
+    /// Accepted steps so far.
+    #[getter]
+    fn steps(&self) -> PyResult<u64> {
+        Ok(self.lock()?.counters().steps)
+    }
+
+    /// Short name of the reason why the run stopped; none while it can go on.
+    #[getter]
+    fn status(&self) -> PyResult<Option<&'static str>> {
+        let simulation = self.lock()?;
+        Ok(simulation
+            .stop_reason()
+            .filter(|reason| **reason != core::StopReason::Interrupted)
+            .map(core::StopReason::name))
+    }
+
+    /// At most `steps` steps until `time`; true if there is more to do. The callback is that of `run`.
+    fn run_until(
+        &self,
+        py: Python<'_>,
+        time: f64,
+        steps: u64,
+        callback: Option<Py<PyAny>>,
+        interval: f64,
+    ) -> PyResult<bool> {
+        let interval = Duration::try_from_secs_f64(interval)
+            .map_err(|error| PyValueError::new_err(format!("interval = {interval}: {error}")))?;
+        let mut guard = self.lock()?;
+        let simulation = &mut *guard;
+        simulation.go_on();
+        let mut watcher = Watcher::new(callback, interval);
+        let more = detached::<_, StorageError>(py, || Ok(simulation.run_until(time, steps, &mut watcher)))?;
+        watcher.raised.map_or(Ok(more), Err)
+    }
+
+    /// The state at hand, as a record of one frame.
+    fn snapshot(&self) -> PyResult<Record> {
+        let mut simulation = self.lock()?;
+        let frame: Frame = simulation.frame();
+        Ok(Record::new(simulation.record_of(vec![frame], StepLog::default())))
+    }
+
+    /// What there is so far.
+    fn record(&self, py: Python<'_>) -> PyResult<Record> {
+        let mut guard = self.lock()?;
+        let simulation = &mut *guard;
+        Ok(Record::new(detached::<_, StorageError>(py, || Ok(simulation.record()))?))
+    }
+
+    /// Writes a checkpoint.
+    fn checkpoint(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        let bytes = checkpoint::encode(&*self.lock()?);
+        detached(py, || atomic_file::write(&path, &bytes, true))
+    }
+}

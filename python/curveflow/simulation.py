@@ -1,0 +1,228 @@
+"""Simulations: runs that are driven from outside."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import NamedTuple
+
+from . import _curveflow
+from .result import Array, Result
+from .running import Progress, watching
+from .scene import Scene
+
+_ALL_STEPS = 2**63
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class State:
+    """A curve with its densities at one time, in the units of the scene; arrays are read-only."""
+
+    time: float
+    """Simulated time."""
+    energy: float
+    """Energy."""
+    dissipation: float
+    """Dissipation, minus the rate of change of the energy."""
+    length: float
+    """Length of the curve."""
+    area: float
+    """Enclosed area, positive for a counter-clockwise curve."""
+    position: Array
+    """Position of the nodes, shape (node, 2)."""
+    curvature: Array
+    """Curvature, positive on a circle, shape (node,)."""
+    metric: Array
+    """Arc length per unit parameter, shape (node,)."""
+    normal_velocity: Array
+    """Velocity along the outward normal, shape (node,)."""
+    density: Mapping[str, Array]
+    """Each density by name, shape (node,)."""
+
+
+class _Scheduled(NamedTuple):
+    callback: Callable[[Simulation], object]
+    interval: float | None
+    steps: int | None
+
+
+class Simulation:
+    """A scene under way.
+
+    >>> import curveflow as cf
+    >>> simulation = cf.Simulation(cf.Scene.shipped("circle"))
+    >>> simulation.run(until=0.1)
+    True
+    >>> simulation.time
+    0.1
+    >>> simulation.step()
+    True
+
+    Args:
+        scene: what to simulate.
+
+    Raises:
+        SetupError: the scene makes no initial state.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self._native = _curveflow.Simulation(scene._native)
+        self._scene: Scene | None = scene
+        self._scheduled: list[_Scheduled] = []
+
+    @classmethod
+    def resume(cls, path: str | os.PathLike[str]) -> Simulation:
+        """Go on from a checkpoint, with the same bits as if the simulation had not stopped; callbacks are not in it.
+
+        Raises:
+            StorageError: the file is no checkpoint of this version, or is damaged.
+        """
+        simulation = cls.__new__(cls)
+        simulation._native = _curveflow.Simulation.resume(path)
+        simulation._scene = None
+        simulation._scheduled = []
+        return simulation
+
+    @property
+    def scene(self) -> Scene:
+        """The scene."""
+        if self._scene is None:
+            self._scene = Scene.parse(self._native.scene)
+        return self._scene
+
+    @property
+    def time(self) -> float:
+        """Simulated time."""
+        return self._native.time
+
+    @property
+    def steps(self) -> int:
+        """Accepted steps so far."""
+        return self._native.steps
+
+    @property
+    def status(self) -> str | None:
+        """Why the simulation ended, as :attr:`Result.status`; ``None`` while it can go on."""
+        return self._native.status
+
+    @property
+    def done(self) -> bool:
+        """Whether there is nothing more to do."""
+        return self.status is not None
+
+    @property
+    def state(self) -> State:
+        """The state at this time, computed anew at each use."""
+        now = Result(self._native.snapshot())
+        return State(
+            time=float(now.time[0]),
+            energy=float(now.energy[0]),
+            dissipation=float(now.dissipation[0]),
+            length=float(now.length[0]),
+            area=float(now.area[0]),
+            position=now.position[0],
+            curvature=now.curvature[0],
+            metric=now.metric[0],
+            normal_velocity=now.normal_velocity[0],
+            density=MappingProxyType({name: values[0] for name, values in now.density.items()}),
+        )
+
+    def add_callback(
+        self,
+        callback: Callable[[Simulation], object],
+        *,
+        interval: float | None = None,
+        steps: int | None = None,
+    ) -> None:
+        """Call ``callback`` with this simulation on a schedule: :meth:`run` does so, :meth:`step` does not.
+
+        It may look at everything, and stop the run by raising ``StopIteration``; other exceptions are passed on. The
+        simulation can go on after either.
+
+        Args:
+            callback: what to call.
+            interval: simulated time between calls, at its multiples; a step ends at each of them.
+            steps: accepted steps between calls, instead.
+
+        Raises:
+            ValueError: not one of ``interval`` and ``steps`` is given, or it is not positive.
+        """
+        if (interval is None) == (steps is None):
+            raise ValueError("give either interval or steps")
+        if interval is not None and not (0 < interval < math.inf):
+            raise ValueError(f"interval = {interval} must be positive and finite")
+        if steps is not None and steps < 1:
+            raise ValueError(f"steps = {steps} must be at least 1")
+        self._scheduled.append(_Scheduled(callback, interval, steps))
+
+    def step(self) -> bool:
+        """Take one accepted step; returns whether there is more to do."""
+        return self._native.run_until(math.inf, 1, None, 0.0)
+
+    def run(
+        self,
+        until: float = math.inf,
+        *,
+        progress: bool = False,
+        callback: Callable[[Progress], object] | None = None,
+    ) -> bool:
+        """Run until a time, or to the end of the scene; returns whether there is more to do.
+
+        Ctrl-C stops as in :func:`run`; the simulation can go on.
+
+        Args:
+            until: simulated time at which the last step ends.
+            progress: show where the run stands on standard error.
+            callback: called with a :class:`Progress` after every accepted step; it cannot use the simulation, which
+                callbacks of :meth:`add_callback` can.
+        """
+        with watching(progress, callback) as (watch, interval):
+            while self.time < until and not self.done:
+                time, steps = self._next_call(until)
+                before = self.steps
+                self._native.run_until(time, steps, watch, interval)
+                interrupted = self.time < time and self.steps - before < steps and not self.done
+                if interrupted or not self._call_due():
+                    break
+        return not self.done
+
+    def _next_call(self, until: float) -> tuple[float, int]:
+        time, steps = until, _ALL_STEPS
+        for scheduled in self._scheduled:
+            if scheduled.interval is not None:
+                time = min(time, _next_multiple(self.time, scheduled.interval))
+            if scheduled.steps is not None:
+                steps = min(steps, scheduled.steps - self.steps % scheduled.steps)
+        return time, steps
+
+    def _call_due(self) -> bool:
+        try:
+            for callback, interval, steps in self._scheduled:
+                on_time = interval is not None and self.time == round(self.time / interval) * interval
+                if on_time or (steps is not None and self.steps % steps == 0):
+                    callback(self)
+        except StopIteration:
+            return False
+        return True
+
+    def result(self) -> Result:
+        """What there is so far, as :func:`run` returns it."""
+        return Result(self._native.record(), self._scene)
+
+    def checkpoint(self, path: str | os.PathLike[str]) -> None:
+        """Write all that it takes to go on by :meth:`resume`; an existing file is replaced once the new one is whole.
+
+        Raises:
+            StorageError: the file cannot be written.
+        """
+        self._native.checkpoint(path)
+
+
+def _next_multiple(time: float, interval: float) -> float:
+    count = math.floor(time / interval)
+    while count * interval <= time:
+        count += 1
+    return count * interval

@@ -1,0 +1,113 @@
+import math
+import signal
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import curveflow as cf
+
+
+@pytest.fixture
+def scene() -> cf.Scene:
+    return cf.Scene.shipped("three_fold").with_values({"accuracy.nodes": 128, "time.end": 0.05})
+
+
+def test_steps_make_the_run(scene: cf.Scene):
+    whole = cf.run(scene)
+    simulation = cf.Simulation(scene)
+    assert (simulation.time, simulation.steps, simulation.done, simulation.status) == (0.0, 0, False, None)
+    while simulation.step():
+        pass
+    assert simulation.done and simulation.status == "end-time"
+    assert not simulation.step()
+    result = simulation.result()
+    np.testing.assert_array_equal(result.energy, whole.energy)
+    np.testing.assert_array_equal(result.position, whole.position)
+    assert (result.status, result.stats["steps"]) == ("end-time", whole.stats["steps"])
+    assert result.scene is simulation.scene is scene
+
+
+def test_it_stops_where_it_is_asked_to(scene: cf.Scene):
+    simulation = cf.Simulation(scene)
+    assert simulation.run(until=0.01)
+    assert simulation.time == 0.01
+    state = simulation.state
+    assert state.time == 0.01
+    assert state.position.shape == (128, 2) and state.density["protein"].shape == (128,)
+    assert state.length == pytest.approx(state.metric.mean())
+    partial = simulation.result()
+    assert (partial.status, partial.time[-1], partial.energy[-1]) == ("interrupted", 0.01, state.energy)
+    assert not simulation.run()
+    assert simulation.time == 0.05
+    assert cf.run(scene).energy[-1] == pytest.approx(simulation.state.energy, rel=1e-5)
+
+
+def test_a_checkpoint_goes_on_to_the_same_bits(scene: cf.Scene, tmp_path: Path):
+    whole = cf.run(scene)
+    simulation = cf.Simulation(scene)
+    for _ in range(17):
+        simulation.step()
+    path = tmp_path / "checkpoint"
+    simulation.checkpoint(path)
+    resumed = cf.Simulation.resume(path)
+    assert resumed.steps == 17 and resumed.scene.text == scene.text
+    assert not resumed.run()
+    np.testing.assert_array_equal(resumed.result().position, whole.position)
+    path.write_bytes(path.read_bytes()[:-1])
+    with pytest.raises(cf.StorageError, match="damaged"):
+        cf.Simulation.resume(path)
+    with pytest.raises(cf.StorageError, match="cannot read"):
+        cf.Simulation.resume(tmp_path / "none")
+
+
+def test_callbacks_come_at_their_times(scene: cf.Scene):
+    simulation = cf.Simulation(scene)
+    times: list[float] = []
+    steps: list[int] = []
+    simulation.add_callback(lambda now: times.append(now.time), interval=0.01)
+    simulation.add_callback(lambda now: steps.append(now.steps), steps=50)
+    simulation.run()
+    assert times == [k * 0.01 for k in range(1, 6)]
+    assert steps == list(range(50, simulation.steps + 1, 50))
+    with pytest.raises(ValueError, match="either"):
+        simulation.add_callback(print)
+    with pytest.raises(ValueError, match="positive"):
+        simulation.add_callback(print, interval=math.inf)
+    with pytest.raises(ValueError, match="at least 1"):
+        simulation.add_callback(print, steps=0)
+
+
+def test_a_callback_stops_the_run_and_it_goes_on(scene: cf.Scene):
+    simulation = cf.Simulation(scene)
+
+    def stop(now: cf.Simulation) -> None:
+        if now.steps == 20:
+            raise StopIteration
+
+    simulation.add_callback(stop, steps=10)
+    assert simulation.run()
+    assert simulation.steps == 20
+    assert not simulation.run()
+
+
+def test_the_progress_callback_cannot_use_the_simulation(scene: cf.Scene):
+    simulation = cf.Simulation(scene)
+    with pytest.raises(RuntimeError, match="in use"):
+        simulation.run(callback=lambda _: simulation.step())
+    assert simulation.steps == 1
+    assert simulation.step()
+
+
+def test_ctrl_c_leaves_a_simulation_that_goes_on(endless: cf.Scene):
+    simulation = cf.Simulation(endless)
+    timer = threading.Timer(0.5, signal.raise_signal, [signal.SIGINT])
+    timer.start()
+    started = time.monotonic()
+    assert simulation.run()
+    assert time.monotonic() - started < 1.5
+    timer.join()
+    steps = simulation.steps
+    assert simulation.step() and simulation.steps == steps + 1
