@@ -1,5 +1,5 @@
 //! Integrals over time of quantities known at the accepted steps, by polynomials through their last values
-//! (an implicit Adams formula with variable steps). See `THEORY.md`, eq. (I6).
+//! (an implicit Adams formula with variable steps); that of a positive rate by a polynomial in its logarithm. See `THEORY.md`, eq. (I6).
 
 use serde::{Deserialize, Serialize};
 
@@ -8,6 +8,8 @@ use super::history::lagrange;
 
 /// Values that a polynomial goes through.
 const POINTS: usize = 5;
+/// The integral whose rate is never negative.
+const POSITIVE: usize = 0;
 /// Nodes and weights of the three-point Gauss rule on [0, 1], exact for the polynomials used.
 const GAUSS: [(f64, f64); 3] =
     [(0.112_701_665_379_258_31, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
@@ -67,12 +69,17 @@ impl Integrals {
         }
         let start = self.times[1];
         let mut values = self.values[1];
+        let rates = &self.rates[..self.filled];
+        // A rate that falls by decades within a few steps is a polynomial in its logarithm only.
+        let logarithmic: [bool; INTEGRALS] =
+            std::array::from_fn(|i| i == POSITIVE && rates.iter().all(|r| r[i] > 0.0));
         for (node, weight) in GAUSS {
             let weights = lagrange(start + node * (time - start), &self.times[..self.filled]).value;
-            for (rates, lagrange) in self.rates[..self.filled].iter().zip(weights) {
-                for (value, rate) in values.iter_mut().zip(rates) {
-                    *value += (time - start) * weight * lagrange * rate;
-                }
+            for (i, value) in values.iter_mut().enumerate() {
+                let sum =
+                    |of: fn(f64) -> f64| rates.iter().zip(weights).map(|(r, w)| w * of(r[i])).sum::<f64>();
+                let rate = if logarithmic[i] { sum(f64::ln).exp() } else { sum(|rate| rate) };
+                *value += (time - start) * weight * rate;
             }
         }
         values
