@@ -24,6 +24,9 @@ pub struct Adhesion {
     motion: [Vec<f64>; 2],
     /// Weights of the sorted nodes; empty if all are 1.
     weight: Vec<f64>,
+    /// Σⱼ wᵢwⱼG, j ≠ i, and its motion, at the sorted nodes, where the weights move; δw/w there.
+    shares: Vec<f64>,
+    weight_motion: Vec<f64>,
 }
 
 /// What the second derivative needs.
@@ -36,6 +39,10 @@ struct Frozen {
     /// G′ and G″ of all pairs, in the order in which they are met.
     first: Vec<f64>,
     second: Vec<f64>,
+    /// G of all pairs, weights of the sorted nodes and the derivative by them, where the weights move.
+    value: Vec<f64>,
+    weight: Vec<f64>,
+    by_weight: Vec<f64>,
 }
 
 /// Distance beyond which the kernel is taken as zero.
@@ -67,6 +74,9 @@ impl Adhesion {
                 by_position: pair(),
                 first: Vec::new(),
                 second: Vec::new(),
+                value: Vec::new(),
+                weight: Vec::with_capacity(nodes),
+                by_weight: Vec::with_capacity(nodes),
             },
             squares: field(),
             values: [field(), field(), field()],
@@ -74,6 +84,8 @@ impl Adhesion {
             sums: pair(),
             motion: pair(),
             weight: Vec::with_capacity(nodes),
+            shares: field(),
+            weight_motion: field(),
         })
     }
 
@@ -83,9 +95,9 @@ impl Adhesion {
         self.kernel.cut_off()
     }
 
-    /// Σ_{i<j} G, with Σⱼ G′(γᵢ − γⱼ) in `sums`.
-    fn sum_pairs(&mut self, order: Order) -> f64 {
-        self.sums.iter_mut().for_each(|sum| sum.fill(0.0));
+    /// Σ_{i<j} G, with Σⱼ G′(γᵢ − γⱼ) in `sums`, and Σⱼ G in `shares` if the weights move.
+    fn sum_pairs(&mut self, order: Order, moving: bool) -> f64 {
+        self.sums.iter_mut().chain([&mut self.shares]).for_each(|sum| sum.fill(0.0));
         let [x, y] = self.cells.position();
         let mut sum = 0.0;
         for place in 0..x.len() {
@@ -115,6 +127,13 @@ impl Adhesion {
                     self.frozen.first.extend_from_slice(first);
                     self.frozen.second.extend_from_slice(second);
                 }
+                if moving {
+                    self.shares[place] += vectors::sum(value);
+                    vectors::add_scaled(&mut self.shares[others.clone()], 1.0, value);
+                    if order >= Order::Hessian {
+                        self.frozen.value.extend_from_slice(value);
+                    }
+                }
                 sum += vectors::sum(value);
                 sum_x += dot(first, pull_x);
                 sum_y += dot(first, pull_y);
@@ -127,9 +146,9 @@ impl Adhesion {
         sum
     }
 
-    /// Change of Σⱼ G′(γᵢ − γⱼ) under `motion`, both at the sorted nodes.
-    fn sum_motions(&mut self) {
-        self.sums.iter_mut().for_each(|sum| sum.fill(0.0));
+    /// Change of Σⱼ G′(γᵢ − γⱼ) under `motion`, both at the sorted nodes, and of Σⱼ G if the weights move.
+    fn sum_motions(&mut self, moving: bool) {
+        self.sums.iter_mut().chain([&mut self.shares]).for_each(|sum| sum.fill(0.0));
         let ([x, y], [v_x, v_y]) = (self.frozen.cells.position(), &self.motion);
         let mut pairs = 0;
         for place in 0..x.len() {
@@ -147,6 +166,20 @@ impl Adhesion {
                     let stretch = 2.0 * second[k] * (dx * change_x + dy * change_y);
                     pull_x[k] = first[k] * change_x + stretch * dx;
                     pull_y[k] = first[k] * change_y + stretch * dy;
+                }
+                if moving {
+                    let rates = &self.weight_motion;
+                    for k in 0..count {
+                        let (dx, dy) = (x[place] - x_j[k], y[place] - y_j[k]);
+                        let (change_x, change_y) = (v_x[place] - v_x_j[k], v_y[place] - v_y_j[k]);
+                        let grown = rates[place] + rates[others.start + k];
+                        pull_x[k] += grown * first[k] * dx;
+                        pull_y[k] += grown * first[k] * dy;
+                        let change = grown * self.frozen.value[pairs + k]
+                            + 2.0 * first[k] * (dx * change_x + dy * change_y);
+                        self.shares[place] += change;
+                        self.shares[others.start + k] += change;
+                    }
                 }
                 pairs += count;
                 sum_x += vectors::sum(pull_x);
@@ -190,12 +223,14 @@ impl EnergyTerm for Adhesion {
         if order >= Order::Hessian {
             self.frozen.first.clear();
             self.frozen.second.clear();
+            self.frozen.value.clear();
         }
+        let moving = !out.weight.is_empty();
         self.weight.clear();
         if !shape.weight.is_empty() {
             self.weight.extend(self.cells.order().iter().map(|node| shape.weight[*node]));
         }
-        let pairs = self.sum_pairs(order);
+        let pairs = self.sum_pairs(order, moving);
         let squares = if self.weight.is_empty() { nodes } else { dot(&self.weight, &self.weight) };
         let energy = (length / nodes).powi(2) * (squares * self.kernel.at_zero() + 2.0 * pairs);
         let factor = 4.0 * length * length / nodes;
@@ -208,6 +243,18 @@ impl EnergyTerm for Adhesion {
             }
         }
         out.length += 2.0 * energy / length;
+        if moving {
+            let factor = 2.0 * length * length / nodes;
+            let at_zero = self.kernel.at_zero();
+            for ((share, weight), &node) in self.shares.iter_mut().zip(&self.weight).zip(self.cells.order()) {
+                *share = factor * (weight * at_zero + *share / weight);
+                out.weight[node] += *share;
+            }
+            if order >= Order::Hessian {
+                self.frozen.weight.clone_from(&self.weight);
+                self.frozen.by_weight.clone_from(&self.shares);
+            }
+        }
         if order >= Order::Hessian {
             self.frozen.energy = energy;
             std::mem::swap(&mut self.frozen.cells, &mut self.cells);
@@ -222,7 +269,14 @@ impl EnergyTerm for Adhesion {
                 self.motion[axis][place] = motion.position[axis][node];
             }
         }
-        self.sum_motions();
+        let moving = !motion.weight.is_empty();
+        if moving {
+            let weights = self.frozen.cells.order().iter().zip(&self.frozen.weight);
+            for (rate, (&node, weight)) in self.weight_motion.iter_mut().zip(weights) {
+                *rate = motion.weight[node] / weight;
+            }
+        }
+        self.sum_motions(moving);
         let (factor, stretch) = (4.0 * length * length / nodes, 2.0 * motion.length / length);
         let mut work = 0.0;
         for (place, &node) in self.frozen.cells.order().iter().enumerate() {
@@ -230,6 +284,19 @@ impl EnergyTerm for Adhesion {
                 let frozen = self.frozen.by_position[axis][node];
                 out.position[axis][node] += factor * self.sums[axis][place] + stretch * frozen;
                 work += frozen * motion.position[axis][node];
+            }
+        }
+        if moving {
+            let (factor, at_zero) = (2.0 * length * length / nodes, self.kernel.at_zero());
+            for (place, &node) in self.frozen.cells.order().iter().enumerate() {
+                let (weight, rate) = (self.frozen.weight[place], self.weight_motion[place]);
+                let by_weight = self.frozen.by_weight[place];
+                // ω = c(wG₀ + s/w): δω = c(δwG₀ + δs/w − sδw/w²) + ω·2δL/L.
+                let share = by_weight / factor - weight * at_zero;
+                out.weight[node] += factor
+                    * (weight * rate * at_zero + self.shares[place] / weight - share * rate)
+                    + stretch * by_weight;
+                work += by_weight * weight * rate;
             }
         }
         out.length +=

@@ -45,6 +45,18 @@ pub struct LengthJet {
     pub second: f64,
 }
 
+impl LengthJet {
+    /// The sum of two functions.
+    #[must_use]
+    pub fn plus(self, other: Self) -> Self {
+        Self {
+            value: self.value + other.value,
+            first: self.first + other.first,
+            second: self.second + other.second,
+        }
+    }
+}
+
 /// One term of the discrete energy `𝓕_h(κ`, g, ρ).
 pub trait EnergyTerm: Debug + Send + Sync {
     /// Key of the term in scenes, in the output file and in Python.

@@ -11,7 +11,8 @@ pub struct ShapeFields {
     pub tangent: [Vec<f64>; 2],
     /// Length |Γ|.
     pub length: f64,
-    /// Weights w of the nodes in means over the curve, which no motion changes; empty if all are 1.
+    /// Weights w of the nodes in means over the curve; empty if all are 1. A motion changes them only where the metric is a
+    /// field of the state, and a derivative by them is asked for only there: it is empty elsewhere.
     pub weight: Vec<f64>,
 }
 
@@ -23,18 +24,20 @@ impl ShapeFields {
         Self { position: field(), tangent: field(), length: 0.0, weight: Vec::new() }
     }
 
-    /// Sets all but the weights to zero.
+    /// Sets all to zero.
     pub fn clear(&mut self) {
-        self.position.iter_mut().chain(&mut self.tangent).for_each(|field| field.fill(0.0));
+        let fields = self.position.iter_mut().chain(&mut self.tangent);
+        fields.chain([&mut self.weight]).for_each(|field| field.fill(0.0));
         self.length = 0.0;
     }
 
-    /// Takes the values of `other`, which has the same weights, without allocating.
+    /// Takes the values of `other`, on as many nodes, without allocating.
     pub fn copy_from(&mut self, other: &Self) {
         for axis in 0..2 {
             self.position[axis].copy_from_slice(&other.position[axis]);
             self.tangent[axis].copy_from_slice(&other.tangent[axis]);
         }
+        self.weight.copy_from_slice(&other.weight);
         self.length = other.length;
     }
 

@@ -36,7 +36,12 @@ impl CurveFields {
     pub fn new(layout: Layout, grid: &PeriodicGrid, derivative: &Derivative) -> Self {
         let (size, modes) = (layout.fields() * layout.nodes(), grid.modes());
         let spectra = vec![Complex64::default(); layout.fields() * modes];
-        let graded = |grading: &Arc<Grading>| Graded { grading: grading.clone(), weighted: spectra.clone() };
+        let graded = |grading: &Arc<Grading>| {
+            // A metric that moves is that of one state alone.
+            let grading =
+                if layout.metric().is_some() { Arc::new(Grading::clone(grading)) } else { grading.clone() };
+            Graded { grading, weighted: spectra.clone() }
+        };
         Self {
             layout,
             modes,
@@ -53,8 +58,16 @@ impl CurveFields {
     pub fn set(&mut self, state: &[f64], grid: &mut PeriodicGrid, derivative: &Derivative) {
         let layout = SpectralLayout::new(self.layout);
         self.length = state[layout.length_index()];
+        if let (Some(field), Some(graded), Some(interpolation)) =
+            (self.layout.metric(), &mut self.graded, derivative.interpolation())
+        {
+            let metric = &layout.spectra(state)[field * self.modes..(field + 1) * self.modes];
+            self.length = metric[0].re;
+            Arc::make_mut(&mut graded.grading).set(metric, interpolation, grid, &mut self.scratch);
+        }
         let target = self.graded.as_mut().map_or(&mut self.spectra, |graded| &mut graded.weighted);
-        scale_into(bytemuck::cast_slice_mut(target), 1.0 / self.length, &state[..layout.length_index()]);
+        let fields = &state[..2 * self.layout.fields() * self.modes];
+        scale_into(bytemuck::cast_slice_mut(target), 1.0 / self.length, fields);
         for field in 0..self.layout.fields() {
             let range = self.layout.field(field);
             let modes = field * self.modes..(field + 1) * self.modes;
@@ -83,6 +96,18 @@ impl CurveFields {
     #[must_use]
     pub fn length(&self) -> f64 {
         self.length
+    }
+
+    /// The metric w per length; none if it is uniform.
+    #[must_use]
+    pub fn grading(&self) -> Option<&Grading> {
+        self.graded.as_ref().map(|graded| &*graded.grading)
+    }
+
+    /// The metric per length, if it is a field of the state.
+    #[must_use]
+    pub fn moving_metric(&self) -> Option<&Grading> {
+        self.grading().filter(|_| self.layout.metric().is_some())
     }
 
     /// The weights w of the nodes; none if all are 1.

@@ -5,6 +5,7 @@
 
 use super::curve_fields::CurveFields;
 use super::graded_energy::{GradedEnergy, add_spectrum, mean_product};
+use super::moving_metric_energy::MovingMetricEnergy;
 use super::shape_energy::ShapeEnergy;
 use super::slope_energy::SlopeEnergy;
 use crate::energies::{EnergyTerm, Fields, Jet, LengthJet, Order, TermFault};
@@ -31,6 +32,7 @@ pub struct EnergySum {
     grid: PeriodicGrid,
     derivative: Derivative,
     graded: Option<GradedEnergy>,
+    moving: Option<MovingMetricEnergy>,
     stiffness: Vec<f64>,
     jet: Jet,
     slopes: Option<SlopeEnergy>,
@@ -70,6 +72,7 @@ impl EnergySum {
             grid: grid.clone(),
             derivative: derivative.clone(),
             graded: GradedEnergy::of(layout, grid, derivative),
+            moving: MovingMetricEnergy::of(layout, grid, derivative),
             stiffness,
             jet: Jet::new(nodes, fields),
             slopes,
@@ -109,11 +112,7 @@ impl EnergySum {
     /// Sum of the functions of the length.
     #[must_use]
     pub fn of_length(&self, length: f64) -> LengthJet {
-        self.terms.iter().map(|term| term.of_length(length)).fold(LengthJet::default(), |a, b| LengthJet {
-            value: a.value + b.value,
-            first: a.first + b.first,
-            second: a.second + b.second,
-        })
+        self.terms.iter().map(|term| term.of_length(length)).fold(LengthJet::default(), LengthJet::plus)
     }
 
     /// Energy of each term at a state, in the order of the terms.
@@ -127,8 +126,13 @@ impl EnergySum {
         if self.terms[term].has_density() {
             self.terms[term].add_density(Fields::new(nodes, at.pointwise()), &mut density);
         }
-        let mut energy =
-            at.length() * at.mean(density.value()) + self.terms[term].of_length(at.length()).value;
+        let of_length = self.terms[term].of_length(at.length());
+        if let Some(moving) = &mut self.moving {
+            let local = moving.energy_of(&mut self.terms[term], &density, of_length, at);
+            let shape = self.shape.as_mut().map(|shape| shape.energy_of(&mut *self.terms[term], at));
+            return local + shape.unwrap_or_default();
+        }
+        let mut energy = at.length() * at.mean(density.value()) + of_length.value;
         for field in 0..self.layout.fields() {
             let coefficient = self.terms[term].stiffness(field);
             if coefficient != 0.0 {
@@ -179,6 +183,14 @@ impl EnergySum {
             term.add_density(Fields::new(nodes, at.pointwise()), &mut self.jet);
         }
         let of_length = self.of_length(length);
+        if let Some(moving) = &mut self.moving {
+            let (terms, stiffness) = (&mut self.terms, &self.stiffness);
+            let mut energy = moving.evaluate(terms, &self.jet, stiffness, of_length, at, order, gradient);
+            if let Some(shape) = &mut self.shape {
+                energy += shape.add_gradient(&mut self.terms, at, order, gradient);
+            }
+            return energy;
+        }
         let mean_density = at.mean(self.jet.value());
         let mut energy = length * mean_density + of_length.value;
         let mut by_length = mean_density + of_length.first;
@@ -236,6 +248,15 @@ impl EnergySum {
     pub fn hessian_product(&mut self, at: &CurveFields, v: &[f64], out: &mut IntrinsicGradient) {
         let (fields, modes, length) = (self.layout.fields(), self.grid.modes(), at.length());
         let layout = SpectralLayout::new(self.layout);
+        if let Some(moving) = &mut self.moving {
+            let of_length = self.terms.iter().map(|term| term.of_length(length));
+            let of_length = of_length.fold(LengthJet::default(), LengthJet::plus);
+            moving.hessian_product(&self.jet, of_length, at, layout.spectra(v), out);
+            if let Some(shape) = &mut self.shape {
+                shape.add_hessian_product(&mut self.terms, v, out);
+            }
+            return;
+        }
         let length_motion = v[layout.length_index()];
         for field in 0..fields {
             let spectrum = &mut self.motion_spectra[field * modes..(field + 1) * modes];

@@ -17,14 +17,14 @@ use crate::operators::{Derivative, GradedLaplacian};
 /// Applies A and Aᵀ on one grid; holds all scratch.
 #[derive(Clone, Debug)]
 pub struct FlowMap {
-    layout: Layout,
-    grid: PeriodicGrid,
+    pub(super) layout: Layout,
+    pub(super) grid: PeriodicGrid,
     derivative: Derivative,
-    graded: Option<GradedLaplacian>,
-    values: Vec<f64>,
-    product: Vec<f64>,
-    spectrum: Vec<Complex64>,
-    image: Vec<Complex64>,
+    pub(super) graded: Option<GradedLaplacian>,
+    pub(super) values: Vec<f64>,
+    pub(super) product: Vec<f64>,
+    pub(super) spectrum: Vec<Complex64>,
+    pub(super) image: Vec<Complex64>,
     tangential: Vec<f64>,
 }
 
@@ -69,8 +69,12 @@ impl FlowMap {
     }
 
     /// Force f = −Aᵀ∇𝓕 of a gradient given by the spectra `gradient` (one per field, per unit length) and
-    /// `by_length` = ∂𝓕/∂|Γ| at fixed K and m. f is a density in L²(dσ).
+    /// `by_length` = ∂𝓕/∂|Γ| at fixed K and m. f is a density in L²(dσ). Where the metric is a field, the
+    /// derivative by it is the last spectrum, and that by its mean `by_length`.
     pub fn force(&mut self, at: &CurveFields, gradient: &[Complex64], by_length: f64, force: &mut [f64]) {
+        if at.moving_metric().is_some() {
+            return self.co_moving_force(at, gradient, by_length, force);
+        }
         let modes = self.grid.modes();
         // z = Σ φ ∂_s p over the fields, at the flux points.
         for field in 0..self.layout.fields() {
@@ -116,6 +120,9 @@ impl FlowMap {
     /// Rates of the fields per unit parameter as spectra, one per field, under the normal velocity `v`.
     /// Returns the rate of the length.
     pub fn rates(&mut self, at: &CurveFields, v: &[f64], rates: &mut [Complex64]) -> f64 {
+        if at.moving_metric().is_some() {
+            return self.co_moving_rates(at, v, rates);
+        }
         let modes = self.grid.modes();
         let length = at.length();
         multiply_into(&mut self.product, at.at_nodes(0), v);
@@ -159,6 +166,9 @@ impl FlowMap {
     /// Tangential velocity W at the nodes for the normal velocity `v` (by the Fourier derivative in every
     /// family: it places the curve, it does not enter the energy).
     pub fn tangential_velocity(&mut self, at: &CurveFields, v: &[f64], w: &mut [f64]) {
+        if at.moving_metric().is_some() {
+            return w.fill(0.0);
+        }
         multiply_into(&mut self.product, at.at_nodes(0), v);
         scale(&mut self.product, -at.length());
         if let Some(graded) = &self.graded {

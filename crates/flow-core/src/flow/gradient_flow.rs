@@ -51,7 +51,7 @@ impl GradientFlow {
         let (grid, derivative) = map.grid_and_derivative();
         let current = CurveFields::new(layout, grid, derivative);
         let modes = grid.modes();
-        let spectra = vec![Complex64::default(); layout.fields() * modes];
+        let spectra = vec![Complex64::default(); layout.state_fields() * modes];
         Self {
             layout,
             map,
@@ -267,6 +267,9 @@ impl GradientFlow {
         let mut sum = length * self.current.mean_of_product(&self.force, &self.velocity);
         let modes = self.spectrum.len();
         for (density, mobility) in self.density_mobilities.iter_mut().enumerate() {
+            if let Some(metric) = self.current.moving_metric() {
+                mobility.follow(metric);
+            }
             let mu = &self.gradient.spectra[(density + 1) * modes..(density + 2) * modes];
             mobility.apply(length, mu, &mut self.spectrum);
             let products = mu.iter().zip(&self.spectrum).enumerate();
@@ -288,6 +291,9 @@ impl GradientFlow {
         let (grid, _) = self.map.grid_and_derivative();
         let modes = grid.modes();
         for (density, mobility) in self.density_mobilities.iter_mut().enumerate() {
+            if let Some(metric) = at.moving_metric() {
+                mobility.follow(metric);
+            }
             let range = (density + 1) * modes..(density + 2) * modes;
             mobility.apply(length, &self.gradient.spectra[range.clone()], &mut self.spectrum);
             for (rate, product) in rates[range].iter_mut().zip(&self.spectrum) {

@@ -1,5 +1,6 @@
 //! The gradient flow dX/dt = −`𝓚(X)∇𝓕_h` with 𝓚 = `A𝓑Aᵀ` + 𝓖. See `THEORY.md`, section 4.
 
+mod co_moving;
 mod curve_fields;
 mod density_mobility;
 mod energy_sum;
@@ -7,6 +8,7 @@ mod excess_density;
 mod flow_map;
 mod graded_energy;
 mod gradient_flow;
+mod moving_metric_energy;
 mod nodal;
 mod normal_mobility;
 mod preconditioner;

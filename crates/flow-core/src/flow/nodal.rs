@@ -73,7 +73,7 @@ impl GradientFlow {
     #[must_use]
     pub(super) fn symbol_length(&self) -> f64 {
         let length = self.frozen().length();
-        self.grading().map_or(length, |grading| length / grading.inverse_square_mean().sqrt())
+        self.frozen().grading().map_or(length, |grading| length / grading.inverse_square_mean().sqrt())
     }
 
     /// Shape of the spectral state vector.

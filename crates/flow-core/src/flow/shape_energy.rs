@@ -28,6 +28,8 @@ pub struct ShapeEnergy {
     angle: Vec<f64>,
     values: Vec<f64>,
     spectrum: Vec<Complex64>,
+    /// Index of the metric among the fields, if the state holds it.
+    metric: Option<usize>,
 }
 
 /// The sawtooth of K, whose angle has the mean square K̂²/λ for the symbol λ of −D₋D₊: c = exp(−K̂²/2λ).
@@ -66,6 +68,9 @@ struct Frozen {
     along_tangent: Vec<f64>,
     across_tangent: Vec<f64>,
     sawtooth: Option<Sawtooth>,
+    /// ω = ∂𝓕/∂w and ⟨wω⟩, where the metric is a field.
+    by_weight: Vec<f64>,
+    mean_by_weight: f64,
 }
 
 impl ShapeEnergy {
@@ -76,6 +81,10 @@ impl ShapeEnergy {
         let mut shape = ShapeFields::new(nodes);
         if let Some(grading) = derivative.grading() {
             shape.weight = grading.weight().to_vec();
+        }
+        let mut of_motion = shape.clone();
+        if layout.metric().is_none() {
+            of_motion.weight = Vec::new();
         }
         let sawtooth = grid.sawtooth_mode().map(|mode| Sawtooth {
             mode,
@@ -88,16 +97,19 @@ impl ShapeEnergy {
             along_tangent: vec![0.0; nodes],
             across_tangent: vec![0.0; nodes],
             sawtooth,
+            by_weight: of_motion.weight.clone(),
+            mean_by_weight: 0.0,
         };
         Self {
             layout: SpectralLayout::new(layout),
             grid: grid.clone(),
             embedding: Embedding::graded(nodes, derivative.grading().cloned()),
             sawtooth,
-            dual: shape.clone(),
-            motion: shape.clone(),
+            dual: of_motion.clone(),
+            motion: of_motion,
             shape,
             frozen,
+            metric: layout.metric(),
             angle: vec![0.0; nodes],
             values: vec![0.0; nodes],
             spectrum: vec![Complex64::default(); grid.modes()],
@@ -117,6 +129,10 @@ impl ShapeEnergy {
     /// Positions and tangents of a state; mean angle and mean position of the nodes are zero, on which no energy depends.
     fn embed(&mut self, at: &CurveFields) {
         let length = at.length();
+        if let Some(metric) = at.moving_metric() {
+            self.embedding.follow(metric);
+            self.shape.weight.copy_from_slice(metric.weight());
+        }
         self.spectrum.iter_mut().zip(at.weighted_spectrum(0)).for_each(|(k, kappa)| *k = kappa * length);
         self.embedding.set_tangent_spectrum(&self.spectrum, length, 0.0);
         let mut shortening = 1.0;
@@ -176,6 +192,9 @@ impl ShapeEnergy {
         if let Some(sawtooth) = self.sawtooth {
             gradient.spectra[sawtooth.mode].re += sawtooth.first() * mean(&self.values);
         }
+        if let Some(field) = self.metric {
+            self.pull_back_to_metric(field, order, gradient);
+        }
         self.pull_back_to_turning(gradient);
         energy
     }
@@ -214,12 +233,27 @@ impl ShapeEnergy {
             for (i, value) in self.values.iter_mut().enumerate() {
                 *value = self.angle[i] * across[i] + c[i] * by_x[i] + s[i] * by_y[i];
             }
+            if self.metric.is_some() {
+                let weights = self.motion.weight.iter().zip(&self.frozen.shape.weight);
+                for ((value, (change, weight)), along) in self.values.iter_mut().zip(weights).zip(along) {
+                    *value += change / weight * along;
+                }
+            }
             let product = sawtooth.second() * turning * mean(along) + sawtooth.first() * mean(&self.values);
             out.spectra[sawtooth.mode].re += product;
             shortening = sawtooth.first() * turning;
         }
+        if let Some(field) = self.metric {
+            self.move_by_metric(field, shortening, out);
+        }
+        let ([c, s], [by_x, by_y]) = (self.frozen.shape.tangents(), self.dual.tangents());
+        let (along, across) = (&self.frozen.along_tangent, &self.frozen.across_tangent);
+        let stretch = |i: usize| match self.metric {
+            Some(_) => shortening + self.motion.weight[i] / self.frozen.shape.weight[i],
+            None => shortening,
+        };
         for (i, angle) in self.angle.iter_mut().enumerate() {
-            *angle = c[i] * by_y[i] - s[i] * by_x[i] + shortening * across[i] - *angle * along[i];
+            *angle = c[i] * by_y[i] - s[i] * by_x[i] + stretch(i) * across[i] - *angle * along[i];
         }
         self.pull_back_to_turning(out);
     }
@@ -227,7 +261,17 @@ impl ShapeEnergy {
     /// Motion of tangents and positions under the motion `v` of the state; that of the tangent angle is in `angle`.
     fn embed_motion(&mut self, v: &[f64]) {
         let (nodes, length) = (self.grid.nodes() as f64, self.frozen.shape.length);
+        let modes = self.grid.modes();
         self.motion.length = v[self.layout.length_index()];
+        if let Some(field) = self.metric {
+            // δw = (δg − w δL)/L.
+            self.spectrum.copy_from_slice(&self.layout.spectra(v)[field * modes..(field + 1) * modes]);
+            self.motion.length = self.spectrum[0].re;
+            self.grid.synthesise(&self.spectrum, &mut self.motion.weight);
+            for (change, weight) in self.motion.weight.iter_mut().zip(&self.frozen.shape.weight) {
+                *change = (*change - weight * self.motion.length) / length;
+            }
+        }
         self.spectrum.copy_from_slice(&self.layout.spectra(v)[..self.grid.modes()]);
         let turning_per_node = self.spectrum[0].re / nodes;
         self.grid.integrate(&mut self.spectrum);
@@ -239,8 +283,12 @@ impl ShapeEnergy {
         let shortening = sawtooth.map_or(0.0, |at| at.first() * self.layout.spectra(v)[at.mode].re);
         let [c, s] = self.frozen.shape.tangents();
         for (i, angle) in self.angle.iter().enumerate() {
-            self.motion.tangent[0][i] = shortening * c[i] - s[i] * angle;
-            self.motion.tangent[1][i] = shortening * s[i] + c[i] * angle;
+            let stretch = match self.metric {
+                Some(_) => shortening + self.motion.weight[i] / self.frozen.shape.weight[i],
+                None => shortening,
+            };
+            self.motion.tangent[0][i] = stretch * c[i] - s[i] * angle;
+            self.motion.tangent[1][i] = stretch * s[i] + c[i] * angle;
         }
         let stretch = self.motion.length / length;
         for axis in 0..2 {
@@ -250,6 +298,53 @@ impl ShapeEnergy {
             let positions = self.motion.position[axis].iter_mut().zip(&self.frozen.shape.position[axis]);
             positions.for_each(|(motion, x)| *motion = length * *motion + stretch * x);
         }
+    }
+
+    /// The derivative by g: that by L at fixed w, and with ω = ∂𝓕/∂w the rest (ω − ⟨wω⟩)/L. The part along the tangents is in
+    /// `values`.
+    fn pull_back_to_metric(&mut self, field: usize, order: Order, gradient: &mut IntrinsicGradient) {
+        let (weight, length) = (&self.shape.weight, self.shape.length);
+        for ((by_weight, along), weight) in self.dual.weight.iter_mut().zip(&self.values).zip(weight) {
+            *by_weight += along / weight;
+        }
+        let mean = mean_of_product(&self.dual.weight, weight);
+        if order >= Order::Hessian {
+            self.frozen.by_weight.copy_from_slice(&self.dual.weight);
+            self.frozen.mean_by_weight = mean;
+        }
+        for (value, by_weight) in self.values.iter_mut().zip(&self.dual.weight) {
+            *value = gradient.by_length + (by_weight - mean) / length;
+        }
+        gradient.by_length = 0.0;
+        self.add_to_metric(field, gradient);
+    }
+
+    /// Change of the derivative by g, with that by L in `out`; the motion of the tangent angle is still in `angle`.
+    fn move_by_metric(&mut self, field: usize, shortening: f64, out: &mut IntrinsicGradient) {
+        let (frozen, motion, length) = (&self.frozen, &self.motion, self.frozen.shape.length);
+        let ([c, s], [by_x, by_y]) = (frozen.shape.tangents(), self.dual.tangents());
+        let mut mean = 0.0;
+        for i in 0..self.values.len() {
+            let (weight, change) = (frozen.shape.weight[i], motion.weight[i]);
+            let along = frozen.along_tangent[i];
+            let turned = self.angle[i] * frozen.across_tangent[i] + c[i] * by_x[i] + s[i] * by_y[i];
+            self.values[i] = self.dual.weight[i] + (turned + shortening * along) / weight;
+            mean += weight * self.values[i] + change * frozen.by_weight[i];
+        }
+        mean /= self.values.len() as f64;
+        let shrink = motion.length / length;
+        for (value, by_weight) in self.values.iter_mut().zip(&frozen.by_weight) {
+            *value = out.by_length + (*value - mean - shrink * (by_weight - frozen.mean_by_weight)) / length;
+        }
+        out.by_length = 0.0;
+        self.add_to_metric(field, out);
+    }
+
+    fn add_to_metric(&mut self, field: usize, out: &mut IntrinsicGradient) {
+        let modes = self.grid.modes();
+        self.grid.transform(&self.values, &mut self.spectrum);
+        let by_metric = &mut out.spectra[field * modes..(field + 1) * modes];
+        by_metric.iter_mut().zip(&self.spectrum).for_each(|(sum, value)| *sum += value);
     }
 
     /// Derivative by tangents += (LP)ᵀ derivative by positions = −LP derivative by positions.

@@ -54,6 +54,14 @@ impl Embedding {
         }
     }
 
+    /// Goes on with the metric `grading`, on as many nodes.
+    pub fn follow(&mut self, grading: &Grading) {
+        match &mut self.grading {
+            Some(own) => Arc::make_mut(own).copy_from(grading),
+            None => self.grading = Some(Arc::new(grading.clone())),
+        }
+    }
+
     /// Tangents and closure gap of the curve with turning per parameter `turning` (nodal) and length `length`,
     /// with mean tangent angle `angle`. Call before the accessors.
     pub fn set_tangent(&mut self, turning: &[f64], length: f64, angle: f64) {

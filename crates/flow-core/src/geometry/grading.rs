@@ -99,6 +99,66 @@ impl Grading {
         })
     }
 
+    /// The uniform grading, to be set by [`Grading::set`].
+    #[must_use]
+    pub fn uniform(nodes: usize) -> Self {
+        let (zero, one) = (vec![0.0; nodes], vec![1.0; nodes]);
+        Self {
+            weight: one.clone(),
+            inverse: one.clone(),
+            at_midpoints: one.clone(),
+            inverse_at_midpoints: one,
+            midpoint_mean: 1.0,
+            inverse_square_mean: 1.0,
+            shift: zero,
+            mean_shift: 0.0,
+        }
+    }
+
+    /// Takes the metric with the Fourier coefficients `metric`, whose interpolation to the midpoints has the symbol
+    /// `interpolation`; `scratch` is one spectrum. A metric that is not positive has reciprocals that are not numbers.
+    pub fn set(
+        &mut self,
+        metric: &[Complex64],
+        interpolation: &[Complex64],
+        grid: &mut PeriodicGrid,
+        scratch: &mut [Complex64],
+    ) {
+        let length = metric[0].re;
+        scratch.iter_mut().zip(metric).for_each(|(w, g)| *w = g / length);
+        grid.synthesise(scratch, &mut self.weight);
+        scratch.iter_mut().zip(metric).zip(interpolation).for_each(|((w, g), m)| *w = g * m / length);
+        grid.synthesise(scratch, &mut self.at_midpoints);
+        let reciprocal = |w: &f64| if *w > 0.0 { 1.0 / w } else { f64::NAN };
+        self.inverse.iter_mut().zip(&self.weight).for_each(|(inverse, w)| *inverse = reciprocal(w));
+        let midpoints = self.inverse_at_midpoints.iter_mut().zip(&self.at_midpoints);
+        midpoints.for_each(|(inverse, w)| *inverse = reciprocal(w));
+        scratch.iter_mut().zip(metric).for_each(|(w, g)| *w = g / length);
+        grid.integrate(scratch);
+        grid.synthesise(scratch, &mut self.shift);
+        let first = self.shift[0];
+        self.shift.iter_mut().for_each(|x| *x -= first);
+        self.midpoint_mean = mean(&self.at_midpoints);
+        self.inverse_square_mean = mean_of_product(&self.inverse, &self.inverse);
+        self.mean_shift = mean_of_product(&self.weight, &self.shift);
+    }
+
+    /// Takes the values of `other`, on as many nodes, without allocating.
+    pub fn copy_from(&mut self, other: &Self) {
+        for (to, from) in [
+            (&mut self.weight, &other.weight),
+            (&mut self.inverse, &other.inverse),
+            (&mut self.at_midpoints, &other.at_midpoints),
+            (&mut self.inverse_at_midpoints, &other.inverse_at_midpoints),
+            (&mut self.shift, &other.shift),
+        ] {
+            to.copy_from_slice(from);
+        }
+        self.midpoint_mean = other.midpoint_mean;
+        self.inverse_square_mean = other.inverse_square_mean;
+        self.mean_shift = other.mean_shift;
+    }
+
     /// Number of nodes.
     #[must_use]
     pub fn nodes(&self) -> usize {

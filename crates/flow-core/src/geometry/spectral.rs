@@ -44,7 +44,7 @@ impl SpectralLayout {
     /// Index of the length |Γ|.
     #[must_use]
     pub fn length_index(&self) -> usize {
-        2 * self.modes * self.nodal.fields()
+        2 * self.modes * self.nodal.state_fields()
     }
 
     /// Entries of field `field`.

@@ -9,13 +9,33 @@
 pub struct Layout {
     nodes: usize,
     densities: usize,
+    /// Whether the metric g is a field of the state, after the densities.
+    moving_metric: bool,
 }
 
 impl Layout {
     /// `nodes` nodes and `densities` densities.
     #[must_use]
     pub fn new(nodes: usize, densities: usize) -> Self {
-        Self { nodes, densities }
+        Self { nodes, densities, moving_metric: false }
+    }
+
+    /// The same with the metric g as a field of the state, after the densities: `[K | m¹ | … | g | L]`, L the mean of g.
+    #[must_use]
+    pub fn with_metric(self) -> Self {
+        Self { moving_metric: true, ..self }
+    }
+
+    /// Index of the metric among the fields, if the state holds it.
+    #[must_use]
+    pub fn metric(&self) -> Option<usize> {
+        self.moving_metric.then_some(1 + self.densities)
+    }
+
+    /// Number of fields that the state vector holds.
+    #[must_use]
+    pub fn state_fields(&self) -> usize {
+        self.fields() + usize::from(self.moving_metric)
     }
 
     /// Number of nodes.
@@ -51,7 +71,7 @@ impl Layout {
     /// Index of the length |Γ| in the state vector.
     #[must_use]
     pub fn length_index(&self) -> usize {
-        self.fields() * self.nodes
+        self.state_fields() * self.nodes
     }
 
     /// Entries of field `field` (0: curvature, then the densities).
@@ -60,13 +80,16 @@ impl Layout {
         field * self.nodes..(field + 1) * self.nodes
     }
 
-    /// State vector of pointwise `curvature` and `density` on a curve of the given length.
+    /// State vector of pointwise `curvature` and `density` on a curve of the given length with uniform metric.
     #[must_use]
     pub fn assemble(&self, curvature: &[f64], density: &[Vec<f64>], length: f64) -> Vec<f64> {
         let mut y = Vec::with_capacity(self.len());
         y.extend(curvature.iter().map(|kappa| kappa * length));
         for rho in density {
             y.extend(rho.iter().map(|rho| rho * length));
+        }
+        if self.moving_metric {
+            y.extend(std::iter::repeat_n(length, self.nodes));
         }
         y.push(length);
         assert_eq!(y.len(), self.len(), "one value per node and field");

@@ -29,6 +29,17 @@ impl CurveHelmholtz {
         }
     }
 
+    /// Goes on with the metric `grading`, on as many nodes.
+    ///
+    /// # Panics
+    /// If the operator was made for uniform nodes.
+    pub fn follow(&mut self, grading: &Grading) {
+        match self {
+            Self::Uniform(_) => panic!("an operator on uniform nodes follows no metric"),
+            Self::Graded(operator) => Arc::make_mut(&mut operator.grading).copy_from(grading),
+        }
+    }
+
     /// Factorises H for the nodal `curvature` on a curve of length `length`, without allocating.
     ///
     /// # Errors

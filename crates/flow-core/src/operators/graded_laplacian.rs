@@ -37,6 +37,11 @@ impl GradedLaplacian {
         &self.grading
     }
 
+    /// Goes on with the metric `grading`, on as many nodes.
+    pub fn follow(&mut self, grading: &Grading) {
+        Arc::make_mut(&mut self.grading).copy_from(grading);
+    }
+
     /// out = S of the field with the Fourier coefficients `spectrum`.
     pub fn apply(&mut self, spectrum: &[Complex64], out: &mut [Complex64]) {
         apply_symbol(out, spectrum, &self.to_flux);

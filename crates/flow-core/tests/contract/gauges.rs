@@ -1,4 +1,4 @@
-//! The laws of the discrete structure on graded nodes: every term, family and mobility.
+//! The laws of the discrete structure on graded and on co-moving nodes: every term, family and mobility.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -37,10 +37,22 @@ fn flow(term: Term, family: DerivativeFamily, state: &State, grading: &Grading) 
     flow_on(Some(grading), term.build(state.layout), family, state.layout, Normal::Identity, &densities)
 }
 
-fn graded(blob: &Blob, nodes: usize, densities: usize) -> (Grading, State) {
+/// The same nodes with a fixed metric, and with one that is a field.
+fn graded(blob: &Blob, nodes: usize, densities: usize, moving: bool) -> (Grading, State) {
     let grading = grading(nodes);
     let state = blob.graded_state(&grading, densities);
+    let state = if moving { with_metric(&state, &grading) } else { state };
     (grading, state)
+}
+
+/// The state with its metric as a field.
+pub fn with_metric(state: &State, grading: &Grading) -> State {
+    let layout = state.layout.with_metric();
+    let (fields, length) = state.y.split_at(state.layout.length_index());
+    let mut y = fields.to_vec();
+    y.extend(grading.weight().iter().map(|weight| weight * length[0]));
+    y.push(length[0]);
+    State { layout, y }
 }
 
 /// Every normal mobility with every family, numbered.
@@ -51,12 +63,12 @@ fn every_mobility() -> impl Iterator<Item = (usize, Normal, DerivativeFamily)> {
 }
 
 proptest! {
-    #![proptest_config(config(8))]
+    #![proptest_config(config(12))]
 
     #[test]
-    fn the_gradient_is_the_derivative_of_the_energy(blob in any_blob(), nodes in any_nodes(), seed: u64) {
+    fn the_gradient_is_the_derivative_of_the_energy(blob in any_blob(), nodes in any_nodes(), seed: u64, moving: bool) {
         for (term, family) in every_flow() {
-            let (grading, state) = graded(&blob, nodes, term.densities());
+            let (grading, state) = graded(&blob, nodes, term.densities(), moving);
             let (layout, y) = (state.layout, &state.y);
             let mut flow = flow(term, family, &state, &grading);
             let mut gradient = vec![0.0; y.len()];
@@ -76,10 +88,10 @@ proptest! {
 
     #[test]
     fn the_second_derivative_is_that_of_the_energy_and_symmetric(
-        blob in any_blob(), nodes in any_nodes(), seed: u64,
+        blob in any_blob(), nodes in any_nodes(), seed: u64, moving: bool,
     ) {
         for (term, family) in every_flow() {
-            let (grading, state) = graded(&blob, nodes, term.densities());
+            let (grading, state) = graded(&blob, nodes, term.densities(), moving);
             let (layout, y) = (state.layout, &state.y);
             let mut flow = flow(term, family, &state, &grading);
             let (v, w) = (motion(layout, seed), motion(layout, !seed));
@@ -104,9 +116,9 @@ proptest! {
     }
 
     #[test]
-    fn the_energy_falls_at_the_rate_of_the_dissipation(blob in any_blob(), nodes in any_nodes()) {
+    fn the_energy_falls_at_the_rate_of_the_dissipation(blob in any_blob(), nodes in any_nodes(), moving: bool) {
         for term in Term::ALL {
-            let (grading, state) = graded(&blob, nodes, term.densities());
+            let (grading, state) = graded(&blob, nodes, term.densities(), moving);
             let layout = state.layout;
             for (index, normal, family) in every_mobility() {
                 let densities = &Density::two(index)[..term.densities()];
@@ -149,8 +161,8 @@ proptest! {
     }
 
     #[test]
-    fn the_mobility_is_symmetric_and_not_negative(blob in any_blob(), nodes in any_nodes(), seed: u64) {
-        let (grading, state) = graded(&blob, nodes, 2);
+    fn the_mobility_is_symmetric_and_not_negative(blob in any_blob(), nodes in any_nodes(), seed: u64, moving: bool) {
+        let (grading, state) = graded(&blob, nodes, 2, moving);
         let layout = state.layout;
         for (index, normal, family) in every_mobility() {
             let terms = Term::Tension.build(layout);
@@ -169,10 +181,10 @@ proptest! {
 
     #[test]
     fn the_implicit_operator_is_minus_mobility_times_second_derivative(
-        blob in any_blob(), nodes in any_nodes(), seed: u64,
+        blob in any_blob(), nodes in any_nodes(), seed: u64, moving: bool,
     ) {
         for (term, family) in every_flow() {
-            let (grading, state) = graded(&blob, nodes, term.densities());
+            let (grading, state) = graded(&blob, nodes, term.densities(), moving);
             let mut flow = flow(term, family, &state, &grading);
             flow.linearise(&state.y);
             let v = motion(state.layout, seed);
@@ -186,9 +198,9 @@ proptest! {
     }
 
     #[test]
-    fn the_force_is_minus_the_transpose_of_the_rates(blob in any_blob(), nodes in any_nodes(), seed: u64) {
+    fn the_force_is_minus_the_transpose_of_the_rates(blob in any_blob(), nodes in any_nodes(), seed: u64, moving: bool) {
         for family in DerivativeFamily::ALL {
-            let (grading, state) = graded(&blob, nodes, 2);
+            let (grading, state) = graded(&blob, nodes, 2, moving);
             let (layout, length) = (state.layout, state.y[state.layout.length_index()]);
             let mut grid = PeriodicGrid::new(nodes);
             let derivative = Derivative::graded(family, &grid, Some(Arc::new(grading.clone())));
@@ -197,10 +209,10 @@ proptest! {
             at.set(&spectral(layout, &state.y), &mut grid, &derivative);
             let (v, dual) = (noise(seed, nodes), noise(!seed, layout.len()));
             let modes = grid.modes();
-            let mut spectra = vec![Complex64::default(); layout.fields() * modes];
+            let mut spectra = vec![Complex64::default(); layout.state_fields() * modes];
             let mut rates = vec![0.0; layout.len()];
             rates[layout.length_index()] = map.rates(&at, &v, &mut spectra);
-            for field in 0..layout.fields() {
+            for field in 0..layout.state_fields() {
                 let spectrum = &mut spectra[field * modes..(field + 1) * modes];
                 grid.synthesise(spectrum, &mut rates[layout.field(field)]);
                 grid.transform(&dual[layout.field(field)], spectrum);

@@ -48,7 +48,7 @@ const SMOOTH_MODES: usize = 6;
 pub fn motion(layout: Layout, seed: u64) -> Vec<f64> {
     let nodes = layout.nodes();
     let mut motion = Vec::with_capacity(layout.len());
-    for field in 0..layout.fields() {
+    for field in 0..layout.state_fields() {
         let c = noise(seed ^ (field as u64 + 1), 2 * SMOOTH_MODES + 2);
         let rough = ((0.5 + 0.5 * c[2 * SMOOTH_MODES]) * (nodes / 2 + 1) as f64) as usize;
         motion.extend((0..nodes).map(|i| {

@@ -2,7 +2,7 @@
 
 use super::DensityMobility;
 use crate::geometry::vectors::scale;
-use crate::geometry::{Complex64, PeriodicGrid};
+use crate::geometry::{Complex64, Grading, PeriodicGrid};
 use crate::operators::{Derivative, GradedLaplacian};
 
 /// By the second derivative of the family; the mass is conserved.
@@ -26,6 +26,12 @@ impl Diffusion {
 impl DensityMobility for Diffusion {
     fn name(&self) -> &'static str {
         "diffusion"
+    }
+
+    fn follow(&mut self, grading: &Grading) {
+        if let Some(graded) = &mut self.graded {
+            graded.follow(grading);
+        }
     }
 
     fn apply(&mut self, length: f64, potential: &[Complex64], out: &mut [Complex64]) {

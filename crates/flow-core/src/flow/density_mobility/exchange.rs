@@ -1,7 +1,7 @@
 //! Exchange with the surroundings, the Allen–Cahn flow: 𝓖 = Id. See `THEORY.md`, eq. (F15).
 
 use super::DensityMobility;
-use crate::geometry::{Complex64, PeriodicGrid};
+use crate::geometry::{Complex64, Grading, PeriodicGrid};
 use crate::operators::{Derivative, GradedLaplacian};
 
 /// The mass is not conserved.
@@ -21,6 +21,12 @@ impl Exchange {
 impl DensityMobility for Exchange {
     fn name(&self) -> &'static str {
         "exchange"
+    }
+
+    fn follow(&mut self, grading: &Grading) {
+        if let Some(graded) = &mut self.graded {
+            graded.follow(grading);
+        }
     }
 
     fn apply(&mut self, _: f64, potential: &[Complex64], out: &mut [Complex64]) {

@@ -9,7 +9,7 @@ mod weighted_diffusion;
 
 use std::fmt::Debug;
 
-use crate::geometry::Complex64;
+use crate::geometry::{Complex64, Grading};
 
 pub use carried::Carried;
 pub use diffusion::Diffusion;
@@ -20,6 +20,9 @@ pub use weighted_diffusion::WeightedDiffusion;
 pub trait DensityMobility: Debug + Send + Sync {
     /// Name in scenes.
     fn name(&self) -> &'static str;
+
+    /// Goes on with the metric `grading`, if the mobility was made for graded nodes.
+    fn follow(&mut self, _grading: &Grading) {}
 
     /// w𝓖 of the spectrum `potential` into `out`, on a curve of length `length`: per unit parameter and length, with the
     /// grading w, 1 on uniform nodes.

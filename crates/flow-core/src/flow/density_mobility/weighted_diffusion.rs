@@ -70,6 +70,12 @@ impl DensityMobility for WeightedDiffusion {
         "diffusion"
     }
 
+    fn follow(&mut self, grading: &Grading) {
+        if let Some(own) = &mut self.grading {
+            Arc::make_mut(own).copy_from(grading);
+        }
+    }
+
     fn apply(&mut self, length: f64, potential: &[Complex64], out: &mut [Complex64]) {
         for ((slope, potential), symbol) in out.iter_mut().zip(potential).zip(&self.to_flux) {
             *slope = potential * symbol;

@@ -38,6 +38,9 @@ impl NormalMobility for SurfaceDiffusion {
         self.grid.transform(force, &mut self.spectrum);
         let factor = at.length().powi(-2);
         if let Some((laplacian, image)) = &mut self.graded {
+            if let Some(metric) = at.moving_metric() {
+                laplacian.follow(metric);
+            }
             laplacian.apply(&self.spectrum, image);
             self.grid.synthesise(image, velocity);
             multiply(velocity, laplacian.grading().inverse());

@@ -1,0 +1,315 @@
+//! Local and stiffness terms where the metric g is a field of the state: gradient and second derivative by g as well.
+//!
+//! With densities e(φ) at the nodes and E(Mφ, D₊φ/Mg) at the flux points, `𝓕_h` = ⟨g e⟩ + ⟨(Mg) E⟩ + Φ(⟨g⟩), φ = K/g, m/g.
+//! See `THEORY.md`, eq. (D10).
+
+use super::curve_fields::CurveFields;
+use super::energy_sum::IntrinsicGradient;
+use crate::energies::{EnergyTerm, Fields, Jet, LengthJet, Order};
+use crate::geometry::vectors::{add_product, add_scaled, apply_symbol, dot, multiply, multiply_into, scale};
+use crate::geometry::{Complex64, Grading, Layout, PeriodicGrid};
+use crate::operators::Derivative;
+
+/// Scratch and linearisation.
+#[derive(Debug)]
+pub struct MovingMetricEnergy {
+    layout: Layout,
+    grid: PeriodicGrid,
+    to_flux: Vec<Complex64>,
+    interpolation: Vec<Complex64>,
+    /// E with its derivatives by Mφ and by the slopes.
+    flux_jet: Jet,
+    /// Mφ, then the slopes, at the flux points; at the linearisation, and their motion.
+    at_flux: Vec<f64>,
+    frozen_at_flux: Vec<f64>,
+    motion_at_flux: Vec<f64>,
+    /// ∂E/∂(Mφ, slope), ∂e/∂φ and ∂𝓕/∂φ per metric at the linearisation.
+    frozen_stress: Vec<f64>,
+    frozen_first: Vec<f64>,
+    frozen_potential: Vec<f64>,
+    motion: Vec<f64>,
+    /// Motion of the metric per length, at the nodes and at the flux points.
+    metric_motion: [Vec<f64>; 2],
+    by_metric: Vec<f64>,
+    values: Vec<f64>,
+    product: Vec<f64>,
+    spectrum: Vec<Complex64>,
+    sum: Vec<Complex64>,
+}
+
+impl MovingMetricEnergy {
+    /// For states of `layout`; none if their metric is not a field.
+    #[must_use]
+    pub fn of(layout: Layout, grid: &PeriodicGrid, derivative: &Derivative) -> Option<Self> {
+        layout.metric()?;
+        let (nodes, fields) = (layout.nodes(), layout.fields());
+        let (field, spectrum) = (vec![0.0; nodes], vec![Complex64::default(); grid.modes()]);
+        let [all, twice] = [fields, 2 * fields].map(|count| vec![0.0; count * nodes]);
+        Some(Self {
+            layout,
+            grid: grid.clone(),
+            to_flux: derivative.to_flux().to_vec(),
+            interpolation: derivative.interpolation()?.to_vec(),
+            flux_jet: Jet::new(nodes, 2 * fields),
+            at_flux: twice.clone(),
+            frozen_at_flux: twice.clone(),
+            motion_at_flux: twice.clone(),
+            frozen_stress: twice,
+            frozen_first: all.clone(),
+            frozen_potential: all.clone(),
+            motion: all,
+            metric_motion: [field.clone(), field.clone()],
+            by_metric: field.clone(),
+            values: field.clone(),
+            product: field,
+            sum: spectrum.clone(),
+            spectrum,
+        })
+    }
+
+    /// Energy of the nodal density `jet`, of the slopes and of the length, with the gradient.
+    pub fn evaluate(
+        &mut self,
+        terms: &mut [Box<dyn EnergyTerm>],
+        jet: &Jet,
+        stiffness: &[f64],
+        of_length: LengthJet,
+        at: &CurveFields,
+        order: Order,
+        gradient: &mut IntrinsicGradient,
+    ) -> f64 {
+        let Some(metric) = at.grading() else { return f64::NAN };
+        let (nodes, fields, modes, length) =
+            (self.layout.nodes(), self.layout.fields(), self.grid.modes(), at.length());
+        self.evaluate_flux(terms, stiffness, at, metric, order);
+        let per_node = length / nodes as f64;
+        let energy = per_node
+            * (dot(metric.weight(), jet.value()) + dot(metric.at_midpoints(), self.flux_jet.value()))
+            + of_length.value;
+        // ∂𝓕/∂g = e + Mᵀ(E − Σ slope stress) − Σ φ p + Φ′.
+        self.product.copy_from_slice(self.flux_jet.value());
+        for variable in fields..2 * fields {
+            let stress = self.flux_jet.first(variable);
+            let slopes = &self.at_flux[variable * nodes..(variable + 1) * nodes];
+            self.product.iter_mut().zip(stress).zip(slopes).for_each(|((q, a), b)| *q -= a * b);
+        }
+        self.sum.fill(Complex64::default());
+        self.add_interpolated();
+        self.grid.synthesise(&self.sum, &mut self.by_metric);
+        add_scaled(&mut self.by_metric, 1.0, jet.value());
+        self.by_metric.iter_mut().for_each(|q| *q += of_length.first);
+        for field in 0..fields {
+            multiply_into(&mut self.values, jet.first(field), metric.weight());
+            scale(&mut self.values, length);
+            multiply_into(&mut self.product, self.flux_jet.first(field), metric.at_midpoints());
+            scale(&mut self.product, length);
+            let stress = std::mem::replace(&mut self.flux_jet, Jet::new(0, 0));
+            self.sum_force(stress.first(fields + field));
+            self.flux_jet = stress;
+            self.to_potential(metric, length);
+            let potential = self.layout.field(field);
+            for ((q, phi), p) in self.by_metric.iter_mut().zip(at.at_nodes(field)).zip(&self.values) {
+                *q -= phi * p;
+            }
+            if order >= Order::Hessian {
+                self.frozen_potential[potential.clone()].copy_from_slice(&self.values);
+                self.frozen_first[potential].copy_from_slice(jet.first(field));
+            }
+            self.grid.transform(&self.values, &mut gradient.spectra[field * modes..(field + 1) * modes]);
+        }
+        if order >= Order::Hessian {
+            self.frozen_at_flux.copy_from_slice(&self.at_flux);
+            for variable in 0..2 * fields {
+                self.frozen_stress[variable * nodes..(variable + 1) * nodes]
+                    .copy_from_slice(self.flux_jet.first(variable));
+            }
+        }
+        self.grid.transform(&self.by_metric, &mut gradient.spectra[fields * modes..(fields + 1) * modes]);
+        gradient.by_length = 0.0;
+        energy
+    }
+
+    /// Energy of one term: its nodal density `jet`, its slopes, its function of the length.
+    pub fn energy_of(
+        &mut self,
+        term: &mut Box<dyn EnergyTerm>,
+        jet: &Jet,
+        of_length: LengthJet,
+        at: &CurveFields,
+    ) -> f64 {
+        let Some(metric) = at.grading() else { return f64::NAN };
+        let stiffness: Vec<f64> = (0..self.layout.fields()).map(|field| term.stiffness(field)).collect();
+        self.evaluate_flux(std::slice::from_mut(term), &stiffness, at, metric, Order::Gradient);
+        let per_node = at.length() / self.layout.nodes() as f64;
+        per_node * (dot(metric.weight(), jet.value()) + dot(metric.at_midpoints(), self.flux_jet.value()))
+            + of_length.value
+    }
+
+    /// E with its derivatives at the fields `at`.
+    fn evaluate_flux(
+        &mut self,
+        terms: &mut [Box<dyn EnergyTerm>],
+        stiffness: &[f64],
+        at: &CurveFields,
+        metric: &Grading,
+        order: Order,
+    ) {
+        let (nodes, fields) = (self.layout.nodes(), self.layout.fields());
+        for field in 0..fields {
+            self.at_flux[self.layout.field(field)].copy_from_slice(at.at_flux_points(field));
+            let slopes = &mut self.at_flux[self.layout.field(fields + field)];
+            apply_symbol(&mut self.spectrum, at.spectrum(field), &self.to_flux);
+            self.grid.synthesise(&self.spectrum, slopes);
+            multiply(slopes, metric.inverse_at_midpoints());
+            scale(slopes, 1.0 / at.length());
+        }
+        self.flux_jet.clear(order);
+        for term in terms.iter_mut().filter(|term| term.has_slope_density()) {
+            term.add_slope_density(Fields::new(nodes, &self.at_flux), &mut self.flux_jet);
+        }
+        for (field, coefficient) in stiffness.iter().enumerate().filter(|(_, c)| **c != 0.0) {
+            let variable = fields + field;
+            let slopes = &self.at_flux[self.layout.field(variable)];
+            let (value, first) = self.flux_jet.value_and_first_mut(variable);
+            for ((value, first), slope) in value.iter_mut().zip(first).zip(slopes) {
+                *value += 0.5 * coefficient * slope * slope;
+                *first += coefficient * slope;
+            }
+            if order >= Order::Hessian {
+                let second = self.flux_jet.second_mut(variable, variable);
+                second.iter_mut().for_each(|second| *second += coefficient);
+            }
+        }
+    }
+
+    /// `sum` += Mᵀ `product`.
+    fn add_interpolated(&mut self) {
+        self.grid.transform(&self.product, &mut self.spectrum);
+        for ((sum, value), symbol) in self.sum.iter_mut().zip(&self.spectrum).zip(&self.interpolation) {
+            *sum += value * symbol.conj();
+        }
+    }
+
+    /// `values` = `values` + Mᵀ `product` + D₊ᵀ `stress`: the derivative by a pointwise field.
+    fn sum_force(&mut self, stress: &[f64]) {
+        self.grid.transform(&self.values, &mut self.sum);
+        self.add_interpolated();
+        self.grid.transform(stress, &mut self.spectrum);
+        for ((sum, value), symbol) in self.sum.iter_mut().zip(&self.spectrum).zip(&self.to_flux) {
+            *sum += value * symbol.conj();
+        }
+        self.grid.synthesise(&self.sum, &mut self.values);
+    }
+
+    /// `values` /= g.
+    fn to_potential(&mut self, metric: &Grading, length: f64) {
+        multiply(&mut self.values, metric.inverse());
+        scale(&mut self.values, 1.0 / length);
+    }
+
+    /// Second derivative times the motion of the fields Φ = K, m and the metric, given by their spectra, at the fields `at` of
+    /// the linearisation, where the nodal density has the second derivatives in `jet`.
+    pub fn hessian_product(
+        &mut self,
+        jet: &Jet,
+        of_length: LengthJet,
+        at: &CurveFields,
+        motion: &[Complex64],
+        out: &mut IntrinsicGradient,
+    ) {
+        let Some(metric) = at.grading() else { return };
+        let (nodes, fields, modes, length) =
+            (self.layout.nodes(), self.layout.fields(), self.grid.modes(), at.length());
+        let of_metric = &motion[fields * modes..(fields + 1) * modes];
+        self.grid.synthesise(of_metric, &mut self.metric_motion[0]);
+        apply_symbol(&mut self.spectrum, of_metric, &self.interpolation);
+        self.grid.synthesise(&self.spectrum, &mut self.metric_motion[1]);
+        self.by_metric.fill(of_length.second * of_metric[0].re);
+        for field in 0..fields {
+            self.move_field(field, at, metric, &motion[field * modes..(field + 1) * modes]);
+            let range = self.layout.field(field);
+            add_product(&mut self.by_metric, &self.frozen_first[range.clone()], &self.motion[range]);
+        }
+        // δ∂E/∂(Mφ, slope) in `at_flux`.
+        for variable in 0..2 * fields {
+            let range = self.layout.field(variable);
+            self.at_flux[range.clone()].fill(0.0);
+            for other in 0..2 * fields {
+                let moved = &self.motion_at_flux[self.layout.field(other)];
+                add_product(&mut self.at_flux[range.clone()], self.flux_jet.second(variable, other), moved);
+            }
+        }
+        self.product.fill(0.0);
+        for field in 0..fields {
+            let (range, slopes) = (self.layout.field(field), self.layout.field(fields + field));
+            add_product(&mut self.product, &self.frozen_stress[range.clone()], &self.motion_at_flux[range]);
+            let stress = self.at_flux[slopes.clone()].iter().zip(&self.frozen_at_flux[slopes]);
+            self.product.iter_mut().zip(stress).for_each(|(q, (a, b))| *q -= a * b);
+        }
+        self.sum.fill(Complex64::default());
+        self.add_interpolated();
+        self.grid.synthesise(&self.sum, &mut self.values);
+        add_scaled(&mut self.by_metric, 1.0, &self.values);
+        for field in 0..fields {
+            let range = self.layout.field(field);
+            self.values.fill(0.0);
+            for other in 0..fields {
+                add_product(
+                    &mut self.values,
+                    jet.second(field, other),
+                    &self.motion[self.layout.field(other)],
+                );
+            }
+            multiply(&mut self.values, metric.weight());
+            scale(&mut self.values, length);
+            add_product(&mut self.values, &self.frozen_first[range.clone()], &self.metric_motion[0]);
+            multiply_into(&mut self.product, &self.at_flux[range.clone()], metric.at_midpoints());
+            scale(&mut self.product, length);
+            add_product(&mut self.product, &self.frozen_stress[range.clone()], &self.metric_motion[1]);
+            let stress = std::mem::take(&mut self.at_flux);
+            self.sum_force(&stress[self.layout.field(fields + field)]);
+            self.at_flux = stress;
+            let potential = &self.frozen_potential[range.clone()];
+            for ((value, p), g) in self.values.iter_mut().zip(potential).zip(&self.metric_motion[0]) {
+                *value -= p * g;
+            }
+            self.to_potential(metric, length);
+            let potential = self.frozen_potential[range.clone()].iter().zip(&self.motion[range]);
+            let fields = at.at_nodes(field).iter().zip(&self.values);
+            for ((q, (p, change)), (phi, p_change)) in self.by_metric.iter_mut().zip(potential).zip(fields) {
+                *q -= p * change + phi * p_change;
+            }
+            self.grid.transform(&self.values, &mut out.spectra[field * modes..(field + 1) * modes]);
+        }
+        debug_assert_eq!(nodes, self.values.len());
+        self.grid.transform(&self.by_metric, &mut out.spectra[fields * modes..(fields + 1) * modes]);
+        out.by_length = 0.0;
+    }
+
+    /// Motion of the pointwise field φ = Φ/g, of Mφ and of the slope, for the motion of Φ with the spectrum `motion`.
+    fn move_field(&mut self, field: usize, at: &CurveFields, metric: &Grading, motion: &[Complex64]) {
+        let (range, fields, inverse_length) =
+            (self.layout.field(field), self.layout.fields(), 1.0 / at.length());
+        let moved = &mut self.motion[range.clone()];
+        self.grid.synthesise(motion, moved);
+        for ((moved, phi), g) in moved.iter_mut().zip(at.at_nodes(field)).zip(&self.metric_motion[0]) {
+            *moved -= phi * g;
+        }
+        multiply(moved, metric.inverse());
+        scale(moved, inverse_length);
+        self.grid.transform(moved, &mut self.sum);
+        apply_symbol(&mut self.spectrum, &self.sum, &self.interpolation);
+        self.grid.synthesise(&self.spectrum, &mut self.motion_at_flux[range]);
+        apply_symbol(&mut self.spectrum, &self.sum, &self.to_flux);
+        let slopes = self.layout.field(fields + field);
+        let moved = &mut self.motion_at_flux[slopes.clone()];
+        self.grid.synthesise(&self.spectrum, moved);
+        for ((moved, slope), g) in
+            moved.iter_mut().zip(&self.frozen_at_flux[slopes]).zip(&self.metric_motion[1])
+        {
+            *moved -= slope * g;
+        }
+        multiply(moved, metric.inverse_at_midpoints());
+        scale(moved, inverse_length);
+    }
+}
