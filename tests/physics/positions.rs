@@ -148,7 +148,7 @@ fn a_run_stops_on_contact_if_the_scene_says_so() {
 
 #[test]
 fn the_curve_moves_at_its_normal_velocity_wherever_it_points() {
-    for gauge in ["'scaled-arc-length'", "'graded'\ngrading = '1 + 0.4*cos(2*pi*s)'"] {
+    for gauge in ["'scaled-arc-length'", "'graded'\ngrading = '1 + 0.4*cos(2*pi*s)'", "'co-moving'"] {
         let record = run(&scene(&format!(
             "
             [curve]

@@ -21,6 +21,10 @@ fn scenes() -> Vec<Scene> {
         shipped("three_fold", &[("accuracy.nodes", "128"), ("time.end", "0.05")]),
         shipped("length_penalty", &[]),
         shipped("length_penalty", &[("flow.switch", SWITCHES)]),
+        shipped(
+            "three_fold",
+            &[("accuracy.nodes", "128"), ("time.end", "0.02"), ("flow.gauge", "co-moving")],
+        ),
         shipped("incompressible", &[("flow.normal_mobility", "incompressible-area-preserving")]),
         shipped("adhesion", &[("time.end", "0.02"), ("accuracy.derivative", "central-4")]),
         shipped("membrane_penalty", &[("accuracy.linear_solver", "banded")]),

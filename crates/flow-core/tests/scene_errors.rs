@@ -377,9 +377,9 @@ const MISTAKES: &[Mistake] = &[
         &["line 19", "\"arc-length\"", "`scaled-arc-length`"],
     ),
     (
-        "[time]",
-        "[flow]\ngauge = \"co-moving\"\n[time]",
-        &["line 19 | gauge", "\"co-moving\" is not available yet", "`scaled-arc-length`", "`graded`"],
+        "mobility = \"diffusion\"",
+        "mobility = \"diffusion\"\nweight = \"1\"\n[flow]\ngauge = \"co-moving\"",
+        &["`flow` and `density.weight` exclude", "fraction of the arc length", "scaled-arc-length"],
     ),
     (
         "[time]",

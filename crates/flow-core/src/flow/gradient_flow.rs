@@ -116,6 +116,16 @@ impl GradientFlow {
         self.map.grid_and_derivative()
     }
 
+    /// Mean of the periodic antiderivative of nodal values of mean zero that starts from zero at node 0.
+    pub fn mean_antiderivative(&mut self, values: &[f64]) -> f64 {
+        let (grid, _) = self.map.grid_and_derivative();
+        grid.transform(values, &mut self.spectrum);
+        grid.integrate(&mut self.spectrum);
+        // The integral has mean zero: less its value at node 0, the sum of its coefficients.
+        let modes = self.spectrum.iter().enumerate();
+        -modes.map(|(mode, value)| self.map.multiplicity(mode) * value.re).sum::<f64>()
+    }
+
     /// The grading of the nodes; none if they are uniform.
     #[must_use]
     pub fn grading(&self) -> Option<&Arc<Grading>> {
@@ -142,10 +152,15 @@ impl GradientFlow {
         Rate { energy, dissipation: self.dissipation() }
     }
 
-    /// Energy of the spectral `state`; its gradient is then at [`GradientFlow::gradient`].
-    pub fn spectral_gradient(&mut self, state: &[f64]) -> f64 {
+    /// Takes the fields of the spectral `state`, without evaluating anything.
+    pub fn set_current(&mut self, state: &[f64]) {
         let (grid, derivative) = self.map.grid_and_derivative();
         self.current.set(state, grid, derivative);
+    }
+
+    /// Energy of the spectral `state`; its gradient is then at [`GradientFlow::gradient`].
+    pub fn spectral_gradient(&mut self, state: &[f64]) -> f64 {
+        self.set_current(state);
         self.energy.gradient(&self.current, &mut self.gradient)
     }
 
@@ -221,24 +236,38 @@ impl GradientFlow {
         }
     }
 
+    /// Replaces the spectrum `turning` of a rate of K by scratch, and writes the normal velocity V that makes it to leading
+    /// order, K = −|Γ|`Δ_s` V, at the frozen state.
+    pub(super) fn velocity_of_turning(&mut self, turning: &mut [Complex64], velocity: &mut [f64]) {
+        let length = self.frozen.length();
+        for value in turning.iter_mut() {
+            *value *= length;
+        }
+        if let Some(graded) = self.map.graded_laplacian() {
+            if let Some(metric) = self.frozen.moving_metric() {
+                graded.follow(metric);
+            }
+            graded.solve(turning);
+        } else {
+            let symbols = self.map.grid_and_derivative().1.minus_laplacian().iter();
+            for (value, symbol) in turning.iter_mut().zip(symbols) {
+                *value = if *symbol > 0.0 { *value / *symbol } else { Complex64::default() };
+            }
+        }
+        self.map.grid_and_derivative().0.synthesise(turning, velocity);
+    }
+
     /// Adds `factor` times the rates of the densities under the normal velocity V that makes the curvature of the spectral
     /// `state` its rate to leading order, K = −|Γ|`Δ_s` V, at the frozen state. Overwrites the gradient and the velocity.
     pub(super) fn carry_densities(&mut self, state: &mut [f64], factor: f64) {
         let layout = self.spectral_layout();
-        let length = self.frozen.length();
         let modes = self.spectrum.len();
         let (turning, densities) = layout.spectra_mut(state).split_at_mut(modes);
-        if let Some(graded) = self.map.graded_laplacian() {
-            self.spectrum.iter_mut().zip(turning).for_each(|(v, turning)| *v = *turning * length);
-            graded.solve(&mut self.spectrum);
-        } else {
-            let symbols = self.map.grid_and_derivative().1.minus_laplacian().iter();
-            for ((v, turning), symbol) in self.spectrum.iter_mut().zip(turning).zip(symbols) {
-                *v = if *symbol > 0.0 { *turning * (length / symbol) } else { Complex64::default() };
-            }
-        }
-        let (grid, _) = self.map.grid_and_derivative();
-        grid.synthesise(&self.spectrum, &mut self.velocity);
+        let (mut spectrum, mut velocity) =
+            (std::mem::take(&mut self.spectrum), std::mem::take(&mut self.velocity));
+        spectrum.copy_from_slice(turning);
+        self.velocity_of_turning(&mut spectrum, &mut velocity);
+        (self.spectrum, self.velocity) = (spectrum, velocity);
         self.map.rates(&self.frozen, &self.velocity, &mut self.gradient.spectra);
         self.map.grid_and_derivative().0.make_real(&mut self.gradient.spectra);
         for (density, rate) in densities.iter_mut().zip(&self.gradient.spectra[modes..]) {

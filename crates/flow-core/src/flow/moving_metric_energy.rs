@@ -68,6 +68,7 @@ impl MovingMetricEnergy {
     }
 
     /// Energy of the nodal density `jet`, of the slopes and of the length, with the gradient.
+    #[allow(clippy::too_many_arguments)] // the parts of the sum that it stands in for
     pub fn evaluate(
         &mut self,
         terms: &mut [Box<dyn EnergyTerm>],
@@ -106,7 +107,7 @@ impl MovingMetricEnergy {
             let stress = std::mem::replace(&mut self.flux_jet, Jet::new(0, 0));
             self.sum_force(stress.first(fields + field));
             self.flux_jet = stress;
-            self.to_potential(metric, length);
+            self.divide_by_metric(metric, length);
             let potential = self.layout.field(field);
             for ((q, phi), p) in self.by_metric.iter_mut().zip(at.at_nodes(field)).zip(&self.values) {
                 *q -= phi * p;
@@ -177,7 +178,9 @@ impl MovingMetricEnergy {
             }
             if order >= Order::Hessian {
                 let second = self.flux_jet.second_mut(variable, variable);
-                second.iter_mut().for_each(|second| *second += coefficient);
+                for second in second {
+                    *second += coefficient;
+                }
             }
         }
     }
@@ -202,7 +205,7 @@ impl MovingMetricEnergy {
     }
 
     /// `values` /= g.
-    fn to_potential(&mut self, metric: &Grading, length: f64) {
+    fn divide_by_metric(&mut self, metric: &Grading, length: f64) {
         multiply(&mut self.values, metric.inverse());
         scale(&mut self.values, 1.0 / length);
     }
@@ -273,7 +276,7 @@ impl MovingMetricEnergy {
             for ((value, p), g) in self.values.iter_mut().zip(potential).zip(&self.metric_motion[0]) {
                 *value -= p * g;
             }
-            self.to_potential(metric, length);
+            self.divide_by_metric(metric, length);
             let potential = self.frozen_potential[range.clone()].iter().zip(&self.motion[range]);
             let fields = at.at_nodes(field).iter().zip(&self.values);
             for ((q, (p, change)), (phi, p_change)) in self.by_metric.iter_mut().zip(potential).zip(fields) {

@@ -1,4 +1,4 @@
-//! From one grading to another: the fields of a state at other nodes of the same curve. See `THEORY.md`, eq. (F18).
+//! From one gauge or grading to another: the fields of a state at other nodes of the same curve. See `THEORY.md`, eq. (F18).
 
 use super::gradient_flow::GradientFlow;
 use crate::geometry::{Closure, ClosureError, Complex64, PeriodicGrid};
@@ -17,8 +17,8 @@ const MOST_PASSES: usize = 50;
 /// Error of the fraction of the arc length that is rounding.
 const FOUND: f64 = 1e-15;
 
-/// The spectral `state` of the flow `from` on the nodes of the flow `to`, of the same energy and any grading and number of
-/// nodes. Turning number, masses and length are kept to rounding; the placement, a mean over the curve, is as it was.
+/// The spectral `state` of the flow `from` on the nodes of the flow `to`, of the same energy and any gauge, grading and number
+/// of nodes. A metric that is a field starts as the grading of `to`. Turning number, masses and length are kept to rounding; the placement, a mean over the curve, is as it was.
 ///
 /// Allocates; meant for the moments between steps. Costs the product of the numbers of nodes.
 ///
@@ -63,6 +63,12 @@ pub fn regrade(
         grid.transform(&corrected, spectrum);
         spectrum[0] = Complex64::new(total, 0.0);
     }
+    if let Some(metric) = to.layout().metric() {
+        let values: Vec<f64> = weight.iter().map(|weight| length * weight).collect();
+        let spectrum = &mut new.spectra_mut(&mut out)[metric * new.modes()..(metric + 1) * new.modes()];
+        grid.transform(&values, spectrum);
+        spectrum[0] = Complex64::new(length, 0.0);
+    }
     out[new.length_index()] = length;
     let turning = &mut new.spectra_mut(&mut out)[..new.modes()];
     Closure::graded(nodes, grading).project(turning, length, turning_number, 0.0)?;
@@ -72,7 +78,7 @@ pub fn regrade(
 
 /// Parameters of the nodes of `from` where the `fractions` of the arc length are reached.
 fn parameters(from: &GradientFlow, fractions: &[f64]) -> Vec<f64> {
-    let Some(grading) = from.grading() else { return fractions.to_vec() };
+    let Some(grading) = from.current().grading() else { return fractions.to_vec() };
     let nodes = grading.nodes();
     let mut grid = PeriodicGrid::new(nodes);
     let mut shift = vec![Complex64::default(); grid.modes()];

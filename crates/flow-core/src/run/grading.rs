@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::scene::Scene;
+use super::scene::{Gauge, Scene};
 use super::setup_error::SetupError;
 use crate::geometry::Grading;
 use crate::geometry::shapes::{Resampled, Shape};
@@ -12,8 +12,12 @@ use crate::geometry::shapes::{Resampled, Shape};
 /// # Errors
 /// [`SetupError::Grading`] if it is not positive, or not resolved.
 pub fn grading(scene: &Scene, nodes: usize) -> Result<Option<Arc<Grading>>, SetupError> {
-    let Some(formula) = &scene.flow.grading else { return Ok(None) };
     let count = Grading::samples(nodes);
+    let Some(formula) = &scene.flow.grading else {
+        // The metric of the co-moving gauge starts as a uniform one, if nothing else is said.
+        let uniform = (scene.flow.gauge == Gauge::CoMoving).then(|| Grading::uniform(nodes));
+        return Ok(uniform.map(Arc::new));
+    };
     let points: Vec<f64> = (0..count).map(|i| i as f64 / count as f64).collect();
     Ok(Some(Arc::new(Grading::new(&formula.values(&points))?)))
 }

@@ -20,6 +20,8 @@ const MOST_CORRECTIONS: usize = 4;
 #[derive(Clone, Debug)]
 pub struct Invariants {
     layout: SpectralLayout,
+    /// Index of the mean of the metric, if that is a field: the fields end with it.
+    mean_metric: Option<usize>,
     kept: Kept,
     /// Mean coefficients of the densities, and which of them are masses that are kept.
     masses: Vec<(bool, f64)>,
@@ -46,6 +48,7 @@ impl Invariants {
         let layout = flow.spectral_layout();
         Self {
             layout,
+            mean_metric: flow.layout().metric().map(|field| layout.field(field).start),
             kept: flow.normal_mobility().keeps(),
             masses: flow.density_mobilities().iter().map(|d| (d.conserves_mass(), 0.0)).collect(),
             length: 0.0,
@@ -69,6 +72,9 @@ impl Invariants {
         angle: f64,
     ) -> Result<f64, ClosureError> {
         let last = self.layout.length_index();
+        if let Some(mean) = self.mean_metric {
+            y[last] = y[mean];
+        }
         if self.taken {
             self.restore_linear(y);
         } else {
@@ -117,8 +123,18 @@ impl Invariants {
             }
         }
         if self.kept.length {
-            y[self.layout.length_index()] = self.length;
+            self.set_length(y, self.length);
         }
+    }
+
+    /// Changes the scale of the curve at fixed turning.
+    fn set_length(&self, y: &mut [f64], length: f64) {
+        let last = self.layout.length_index();
+        if let Some(mean) = self.mean_metric {
+            let ratio = length / y[last];
+            y[mean..last].iter_mut().for_each(|g| *g *= ratio);
+        }
+        y[last] = length;
     }
 
     /// Corrects the length by a change of scale where it is free, else the curvature.
@@ -141,7 +157,7 @@ impl Invariants {
             }
             let ratio = self.area / now;
             if !self.kept.length && self.area.abs() > SCALABLE * circle && ratio > 0.0 {
-                y[last] = length * ratio.sqrt();
+                self.set_length(y, length * ratio.sqrt());
                 break;
             }
             if !self.bend(turning, flow, closure, now - self.area) {

@@ -1,11 +1,13 @@
 //! The gradient flow of a closed curve as a problem for the integrator.
 
+use std::f64::consts::TAU;
 use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
 use super::invariants::{Invariants, KeptValues};
 use crate::flow::{GradientFlow, LinearSolver, Preconditioner, Rate};
+use crate::geometry::vectors::{mean_of_product, multiply};
 use crate::geometry::{Closure, Crossings, Embedding, Layout};
 use crate::integrator::{Finish, INTEGRALS, Problem};
 
@@ -109,6 +111,7 @@ impl Membrane {
 
     /// Number of self-crossings of the spectral state `y`.
     pub fn crossings(&mut self, y: &[f64]) -> usize {
+        self.follow_metric(y);
         let layout = self.flow.spectral_layout();
         let length = y[layout.length_index()];
         let embedding = self.closure.embedding();
@@ -164,9 +167,20 @@ impl Membrane {
         if !needed {
             return true;
         }
-        self.flow.spectral_linearise(&state);
-        self.linearised = state;
+        let mut rate = vec![0.0; state.len()];
+        self.linearise(&state, &mut rate);
         self.factorise(gamma)
+    }
+
+    /// Takes the metric of the spectral state `y`, if it is a field there, into the embedding; false if it is not positive.
+    fn follow_metric(&mut self, y: &[f64]) -> bool {
+        if self.flow.layout().metric().is_none() {
+            return true;
+        }
+        self.flow.set_current(y);
+        let Some(metric) = self.flow.current().moving_metric() else { return false };
+        self.closure.embedding().follow(metric);
+        metric.weight().iter().chain(metric.at_midpoints()).all(|weight| *weight > 0.0)
     }
 
     /// Rates of the integrals at the state evaluated last: dissipation, ⟨κW⟩, ⟨Vn + Wτ⟩.
@@ -182,7 +196,32 @@ impl Membrane {
             x += v * ty[i] + w * tx[i];
             y += w * ty[i] - v * tx[i];
         }
-        [rate.dissipation, angle / nodes, x / nodes, y / nodes]
+        let [moved_angle, moved_x, moved_y] = self.shift_of_means();
+        [rate.dissipation, angle / nodes + moved_angle, x / nodes + moved_x, y / nodes + moved_y]
+    }
+
+    /// Rates of the mean angle and the mean position by the change of the weights of the nodes, ⟨(κV − ⟨κV⟩)·⟩: zero unless
+    /// the metric is a field.
+    fn shift_of_means(&mut self) -> [f64; 3] {
+        let at = self.flow.current();
+        let Some(metric) = at.moving_metric() else { return [0.0; 3] };
+        self.tangential.copy_from_slice(at.at_nodes(0));
+        multiply(&mut self.tangential, self.flow.normal_velocity());
+        let mean = mean_of_product(metric.weight(), &self.tangential);
+        for (stretch, weight) in self.tangential.iter_mut().zip(metric.weight()) {
+            *stretch = weight * (*stretch - mean);
+        }
+        let embedding = self.closure.embedding();
+        embedding.set_position(at.length(), [0.0; 2]);
+        let [x, y] = embedding.position().map(|values| mean_of_product(&self.tangential, values));
+        // The angle θ − 2πωs is periodic, θ is not; ⟨ẇs⟩ = −⟨ẋ⟩ with the fractions x of the arc length.
+        let turning = TAU * f64::from(self.turning_number);
+        let nodes = self.tangential.len() as f64;
+        let periodic = |(i, angle): (usize, &f64)| angle - turning * i as f64 / nodes;
+        let angles = embedding.tangent_angle().iter().enumerate().map(periodic);
+        let angle = angles.zip(&self.tangential).map(|(angle, change)| angle * change).sum::<f64>() / nodes;
+        let moved = self.flow.mean_antiderivative(&self.tangential);
+        [angle - turning * moved, x, y]
     }
 }
 
@@ -193,7 +232,8 @@ impl Problem for Membrane {
 
     fn blocks(&self) -> Vec<Range<usize>> {
         let layout = self.flow.spectral_layout();
-        let mut blocks: Vec<_> = (0..self.flow.layout().fields()).map(|field| layout.field(field)).collect();
+        let mut blocks: Vec<_> =
+            (0..self.flow.layout().state_fields()).map(|field| layout.field(field)).collect();
         blocks.push(layout.length_index()..layout.len());
         blocks
     }
@@ -251,7 +291,7 @@ impl Problem for Membrane {
         let length = y[layout.length_index()];
         let [start, angle, angle_rate] = self.placed;
         let usable = length > 0.0 && y.iter().sum::<f64>().is_finite();
-        if !usable {
+        if !usable || !self.follow_metric(y) {
             return Finish::NotFinite;
         }
         // The angle at the candidate to second order; it turns the frame of the mean position only.

@@ -8,7 +8,7 @@ use super::grading::{grading, resample};
 use super::membrane::Membrane;
 use super::mobilities::{density_mobilities, normal_mobility};
 use super::resolution;
-use super::scene::{self, Scene};
+use super::scene::{self, Gauge, Scene};
 use super::setup_error::SetupError;
 use super::switches::Switches;
 use crate::flow::{EnergySum, FlowMap, GradientFlow, LinearSolver};
@@ -50,7 +50,7 @@ impl Setup {
         let grading = grading(scene, nodes)?;
         let curve = resample(&shape, nodes, grading.as_deref())?;
         check_turning(scene, &curve)?;
-        let layout = Layout::new(nodes, scene.density.len());
+        let layout = layout(scene, nodes);
         let (state, closure_defect) = initial_state(scene, &curve, layout, grading.as_ref())?;
         let area = area(&state, layout, &curve, grading.clone());
         let initial = Initial { length: initial_length, area };
@@ -63,6 +63,12 @@ impl Setup {
     }
 }
 
+/// Shape of the states of a scene on `nodes` nodes.
+fn layout(scene: &Scene, nodes: usize) -> Layout {
+    let layout = Layout::new(nodes, scene.density.len());
+    if scene.flow.gauge == Gauge::CoMoving { layout.with_metric() } else { layout }
+}
+
 /// The flow of a scene on `nodes` nodes, and what frames hold on request.
 pub(super) fn flow(
     scene: &Scene,
@@ -70,7 +76,7 @@ pub(super) fn flow(
     nodes: usize,
     grading: Option<Arc<Grading>>,
 ) -> Result<(GradientFlow, Diagnostics), SetupError> {
-    let layout = Layout::new(nodes, scene.density.len());
+    let layout = layout(scene, nodes);
     let grid = PeriodicGrid::new(nodes);
     let derivative = Derivative::graded(family(scene.accuracy.derivative), &grid, grading);
     let terms = energy_terms(scene, initial, nodes)?;
@@ -114,7 +120,7 @@ fn initial_state(
     }
     let mut nodal = layout.assemble(&curve.curvature, &densities, curve.length);
     if let Some(grading) = grading {
-        grading.weigh(&mut nodal[..layout.length_index()]);
+        grading.weigh(&mut nodal[..layout.length_index()]); // the metric too, where it is a field
     }
     let spectral = SpectralLayout::new(layout);
     let mut state = vec![0.0; spectral.len()];

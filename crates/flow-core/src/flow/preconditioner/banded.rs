@@ -273,6 +273,9 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
         for (keeps, density) in self.keeps_mean.iter_mut().skip(1).zip(flow.density_mobilities()) {
             *keeps = density.conserves_mass();
         }
+        if let (Some(local), Some(metric)) = (&mut self.local, flow.frozen().moving_metric()) {
+            local.set(metric);
+        }
         self.restrict(flow);
         self.set_correction(flow, gamma);
         let scale = (self.grid.nodes() as f64 / flow.frozen().length()).powi(2);

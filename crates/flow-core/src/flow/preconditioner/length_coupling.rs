@@ -12,6 +12,8 @@ use crate::geometry::vectors::{add_scaled, dot};
 pub struct LengthCoupling {
     gamma: f64,
     layout: SpectralLayout,
+    /// Index of |Γ|: its own, or that of the mean of the metric where that is a field.
+    index: usize,
     /// 𝓚e.
     direction: Vec<f64>,
     /// `H₀𝓚e`, each coefficient as often as it stands in the full spectrum: dot products are means.
@@ -22,12 +24,14 @@ pub struct LengthCoupling {
 }
 
 impl LengthCoupling {
-    /// Room for spectral states of `layout`.
+    /// Room for the spectral states of `flow`.
     #[must_use]
-    pub fn new(layout: SpectralLayout) -> Self {
+    pub fn new(flow: &GradientFlow) -> Self {
+        let layout = flow.spectral_layout();
         let zero = vec![0.0; layout.len()];
         let (direction, row) = (zero.clone(), zero.clone());
-        Self { gamma: 0.0, layout, direction, row, response: zero, curvature: 0.0 }
+        let index = flow.layout().metric().map_or(layout.length_index(), |field| layout.field(field).start);
+        Self { gamma: 0.0, layout, index, direction, row, response: zero, curvature: 0.0 }
     }
 
     /// Sets the coupling at the frozen state, given the inverse of the fields.
@@ -37,19 +41,21 @@ impl LengthCoupling {
         gamma: f64,
         mut inverse: impl FnMut(&mut GradientFlow, &mut [f64]),
     ) {
-        let last = self.layout.length_index();
+        let index = self.index;
         self.gamma = gamma;
         self.curvature = flow.energy_terms().of_length(flow.frozen().length()).second;
         self.row.fill(0.0);
-        self.row[last] = 1.0;
+        self.row[index] = 1.0;
         flow.spectral_mobility(&self.row, &mut self.direction);
         flow.spectral_hessian_product(&self.direction);
         let modes = self.layout.modes();
         let row = self.layout.spectra_mut(&mut self.row);
-        for (index, (row, dual)) in row.iter_mut().zip(&flow.gradient().spectra).enumerate() {
-            *row = dual * flow.multiplicity(index % modes);
+        for (place, (row, dual)) in row.iter_mut().zip(&flow.gradient().spectra).enumerate() {
+            *row = dual * flow.multiplicity(place % modes);
         }
-        self.row[last] = flow.gradient().by_length - self.curvature * self.direction[last];
+        let last = self.layout.length_index();
+        self.row[last] = flow.gradient().by_length;
+        self.row[index] -= self.curvature * self.direction[index];
         self.response.copy_from_slice(&self.direction);
         inverse(flow, &mut self.response);
         let mut response = std::mem::take(&mut self.response);
@@ -59,18 +65,21 @@ impl LengthCoupling {
 
     /// Completes x = P₀r by the row of the length.
     fn couple_row(&self, x: &mut [f64]) {
+        let (index, own) = (self.index, self.row[self.index]);
+        let excess = x[x.len() - 1] - x[index];
+        let sum = dot(&self.row, x) - own * x[index];
+        x[index] = (x[index] - self.gamma * sum) / (1.0 + self.gamma * own.max(0.0));
         let last = x.len() - 1;
-        let sum = dot(&self.row[..last], &x[..last]);
-        let diagonal = 1.0 + self.gamma * self.row[last].max(0.0);
-        x[last] = (x[last] - self.gamma * sum) / diagonal;
+        if index != last {
+            x[last] = x[index] + excess;
+        }
     }
 
     /// Completes the preconditioned fields in place.
     pub fn apply(&self, x: &mut [f64]) {
         self.couple_row(x);
-        let last = x.len() - 1;
         let weight = self.gamma * self.curvature;
-        let factor = weight * x[last] / (1.0 + weight * self.response[last]);
+        let factor = weight * x[self.index] / (1.0 + weight * self.response[self.index]);
         add_scaled(x, -factor, &self.response);
     }
 }

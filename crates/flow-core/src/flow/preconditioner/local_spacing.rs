@@ -15,15 +15,20 @@ pub struct LocalSpacing {
 impl LocalSpacing {
     /// On `nodes` coarse nodes.
     pub fn new(grading: &Grading, nodes: usize) -> Self {
-        let weight: Vec<f64> = (0..nodes).map(|i| grading.at(i as f64 / nodes as f64)).collect();
-        let difference = |i| {
+        let zero = vec![0.0; nodes];
+        let mut local = Self { weight: zero.clone(), inverse: zero, differences: vec![[0.0; 3]; nodes] };
+        local.set(grading);
+        local
+    }
+
+    /// Takes another grading.
+    pub fn set(&mut self, grading: &Grading) {
+        let nodes = self.weight.len();
+        for i in 0..nodes {
+            self.weight[i] = grading.at(i as f64 / nodes as f64);
+            self.inverse[i] = 1.0 / self.weight[i];
             let [left, right] = grading.spacing(i, nodes);
-            [left, -left - right, right]
-        };
-        Self {
-            inverse: weight.iter().map(|w| 1.0 / w).collect(),
-            weight,
-            differences: (0..nodes).map(difference).collect(),
+            self.differences[i] = [left, -left - right, right];
         }
     }
 }

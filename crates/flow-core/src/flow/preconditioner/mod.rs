@@ -6,6 +6,7 @@ mod dense;
 mod fourier;
 mod length_coupling;
 mod local_spacing;
+mod metric_coupling;
 mod residual_weights;
 
 use serde::{Deserialize, Serialize};
@@ -16,6 +17,7 @@ use banded::Banded;
 use dense::Dense;
 use fourier::FourierSymbol;
 use length_coupling::LengthCoupling;
+use metric_coupling::MetricCoupling;
 pub use residual_weights::ResidualWeights;
 
 /// How the linear systems of the implicit steps are preconditioned.
@@ -47,6 +49,8 @@ pub struct Preconditioner {
     inverse: FieldInverse,
     /// Whether the densities are taken relative to what the curve carries along (see [`carries`]).
     carries: bool,
+    /// Where the metric is a field.
+    metric: Option<MetricCoupling>,
     coupling: Option<LengthCoupling>,
     weights: ResidualWeights,
 }
@@ -75,7 +79,8 @@ impl Preconditioner {
             weights: ResidualWeights::new(flow.spectral_layout()),
             inverse,
             carries: carries(flow) && !whole,
-            coupling: (coupled && !whole).then(|| LengthCoupling::new(flow.spectral_layout())),
+            metric: MetricCoupling::of(flow).filter(|_| !whole),
+            coupling: (coupled && !whole).then(|| LengthCoupling::new(flow)),
         }
     }
 
@@ -121,6 +126,16 @@ impl Preconditioner {
     }
 
     fn apply_to_fields(&mut self, flow: &mut GradientFlow, r: &mut [f64]) {
+        match self.metric.take() {
+            None => self.apply_at_fixed_metric(flow, r),
+            Some(mut metric) => {
+                metric.apply(flow, r, |flow, r| self.apply_at_fixed_metric(flow, r));
+                self.metric = Some(metric);
+            }
+        }
+    }
+
+    fn apply_at_fixed_metric(&mut self, flow: &mut GradientFlow, r: &mut [f64]) {
         let layout = flow.spectral_layout();
         if self.carries {
             flow.carry_densities(r, -1.0);
@@ -147,6 +162,9 @@ impl Preconditioner {
 /// T diag(`A₀𝓑A₀ᵀ`, 𝓖)Tᵀ and T⁻¹(I − γJ)T has no coupling through the motion. Where 𝓖 is of order 2 and 𝓑 of order 0 the
 /// coupling is small without that. See `THEORY.md`, eq. (O6).
 fn carries(flow: &GradientFlow) -> bool {
+    if flow.layout().metric().is_some() {
+        return false; // nodes of a metric that moves carry their densities anyhow
+    }
     let least = 2 + flow.normal_mobility().order();
     flow.density_mobilities().iter().any(|density| density.order() < least)
 }

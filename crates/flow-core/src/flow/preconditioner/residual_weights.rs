@@ -25,9 +25,11 @@ impl ResidualWeights {
     /// Takes the symbols at the frozen state of `flow`, without the variable coefficients.
     pub fn set(&mut self, flow: &mut GradientFlow, gamma: f64) {
         let (layout, length) = (flow.spectral_layout(), flow.symbol_length());
-        for field in 0..flow.layout().fields() {
+        for place in 0..flow.layout().state_fields() {
+            // The metric moves as stiffly as the curvature.
+            let field = if Some(place) == flow.layout().metric() { 0 } else { place };
             let stiffness = flow.energy_terms().stiffness()[field] / (length * length);
-            let start = layout.field(field).start;
+            let start = layout.field(place).start;
             for mode in 0..layout.modes() {
                 let laplacian = flow.grid_and_derivative().1.minus_laplacian()[mode];
                 let rate = mobility_symbol(flow, field, laplacian, length) * stiffness * laplacian;

@@ -13,7 +13,7 @@ use super::overrides;
 use super::report::Report;
 use super::section::Section;
 use super::shipped::SHIPPED;
-use super::{Accuracy, Curve, Density, Energy, Flow, Nodes, Output, Time};
+use super::{Accuracy, Curve, Density, Energy, Flow, Gauge, Nodes, Output, Time};
 
 /// Longer texts are not scenes.
 pub const MAX_SCENE_BYTES: usize = 1 << 20;
@@ -146,6 +146,17 @@ fn check_size(bytes: usize, source_name: &str) -> Result<(), SceneError> {
     Ok(())
 }
 
+/// A weight is a function of the fraction of the arc length, which no node keeps in the co-moving gauge.
+fn check_weights(root: &Section<'_>, density: &[Density], flow: &Flow) {
+    let gauges = std::iter::once(flow.gauge).chain(flow.switch.iter().map(|switch| switch.gauge));
+    let weighted = density.iter().any(|density| density.weight.is_some());
+    if weighted && gauges.into_iter().any(|gauge| gauge == Gauge::CoMoving) {
+        let remedy = "a weight is a function of the fraction of the arc length, which co-moving nodes do not keep: drop \
+                      it, or use gauge = \"scaled-arc-length\"";
+        root.fault("flow", Fault::Conflict { with: "density.weight", remedy });
+    }
+}
+
 /// Reads all tables, so that all problems are found; `None` if there is one.
 fn read(mut root: Section<'_>) -> Option<Scene> {
     let title = root.get("title").map_or(Some(""), |entry| entry.text());
@@ -164,6 +175,7 @@ fn read(mut root: Section<'_>) -> Option<Scene> {
     let time = time.and_then(|entry| Time::read(entry.section()?));
     let end = time.as_ref().map(|time| time.end);
     let flow = root.section("flow").map(|table| Flow::read(table, end)).unwrap_or_default();
+    check_weights(&root, density.as_deref().unwrap_or_default(), &flow);
     let accuracy = root.section("accuracy").map(|table| Accuracy::read(table, flow.normal_mobility));
     let accuracy = accuracy.unwrap_or_default();
     let output =

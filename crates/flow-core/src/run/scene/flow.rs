@@ -15,7 +15,8 @@ pub struct Flow {
     pub normal_mobility: NormalMobility,
     /// The rule for the tangential velocity.
     pub gauge: Gauge,
-    /// The metric of the graded gauge, an expression of `s` in `[0, 1)` up to a factor: nodes crowd where it is small.
+    /// The metric of the graded gauge, and the first one of the co-moving gauge, an expression of `s` in `[0, 1)` up to a
+    /// factor: nodes crowd where it is small.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grading: Option<Formula>,
     /// Whether the run stops once the curve crosses itself more often than at the start; crossings are legal unless
@@ -49,6 +50,8 @@ names! {
         ScaledArcLength = "scaled-arc-length",
         /// The metric g is the length times a fixed function of the parameter, `grading`.
         Graded = "graded",
+        /// Every node moves along the normal, and the metric g with the curve: nodes are material points.
+        CoMoving = "co-moving",
     }
 }
 
@@ -89,12 +92,12 @@ impl Flow {
 impl Gauge {
     /// The keys `gauge` and `grading` of a table.
     pub(super) fn read(section: &mut Section<'_>) -> (Option<Self>, Option<Formula>) {
-        let gauge = section.get("gauge").and_then(|entry| entry.choice(&["co-moving"]));
+        let gauge = section.get("gauge").and_then(|entry| entry.choice(&[]));
         let grading = section.get("grading");
         let known = gauge.unwrap_or(Flow::default().gauge);
         match (known, &grading) {
             (Gauge::Graded, None) => section.fault("grading", Fault::MissingKey { example: GRADING }),
-            (Gauge::Graded, Some(_)) => {}
+            (Gauge::Graded | Gauge::CoMoving, Some(_)) => {}
             // A gauge that is not known has its own message.
             (other, Some(_)) if gauge.is_some() || !section.has("gauge") => {
                 let remedy = "drop the grading, or use gauge = \"graded\"";

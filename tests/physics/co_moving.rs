@@ -1,0 +1,142 @@
+//! The co-moving gauge: nodes are material points, and the curve is that of the other gauges.
+
+use curveflow_tests::physics::fields::Interpolant;
+use curveflow_tests::{largest_rise, last, run, shipped};
+use flow_core::run::{Frame, Record, StopReason};
+
+/// Largest distance of the nodes of `frame` from the curve `uniform`, which has uniform nodes, relative to the length.
+fn distance(uniform: &Frame, frame: &Frame) -> f64 {
+    let axis = |k: usize| Interpolant::new(&uniform.position.iter().map(|at| at[k]).collect::<Vec<_>>());
+    let (x, y) = (axis(0), axis(1));
+    let count = uniform.position.len();
+    let to_curve = |p: &[f64; 2]| {
+        let squares = uniform.position.iter().map(|at| (at[0] - p[0]).powi(2) + (at[1] - p[1]).powi(2));
+        let (nearest, _) = squares
+            .enumerate()
+            .fold((0, f64::INFINITY), |best, (i, d)| if d < best.1 { (i, d) } else { best });
+        let mut s = nearest as f64 / count as f64;
+        for _ in 0..5 {
+            let (tx, ty) = (x.slope_at(s), y.slope_at(s));
+            s += ((p[0] - x.at(s)) * tx + (p[1] - y.at(s)) * ty) / (tx * tx + ty * ty);
+        }
+        (p[0] - x.at(s)).hypot(p[1] - y.at(s))
+    };
+    frame.position.iter().map(to_curve).fold(0.0, f64::max) / uniform.length
+}
+
+fn balance(record: &Record) -> f64 {
+    (last(record).energy_balance / record.frames[0].energy).abs()
+}
+
+#[test]
+fn the_curve_is_that_of_the_scaled_arc_length() {
+    for (scene, nodes, end) in
+        [("length_penalty", "256", "0.01"), ("incompressible", "256", "0.01"), ("three_fold", "512", "0.02")]
+    {
+        let mut changes = vec![
+            ("accuracy.nodes", nodes),
+            ("accuracy.tolerance", "1e-8"),
+            ("time.stop_at_equilibrium", "false"),
+            ("time.end", end),
+        ];
+        let uniform = run(&shipped(scene, &changes));
+        changes.push(("flow.gauge", "co-moving"));
+        let moving = run(&shipped(scene, &changes));
+        let (a, b) = (last(&uniform), last(&moving));
+        let energy = (a.energy / b.energy - 1.0).abs();
+        let dissipation = (a.dissipation / b.dissipation - 1.0).abs();
+        let image = distance(a, b);
+        let work = |record: &Record| (record.counters.steps, record.counters.krylov_iterations);
+        println!(
+            "{scene}: energy {energy:.1e}, dissipation {dissipation:.1e}, image {image:.1e}, work {:?} {:?}",
+            work(&uniform),
+            work(&moving)
+        );
+        assert!(largest_rise(&moving) <= 1e-13, "{scene}: {:.1e}", largest_rise(&moving));
+        assert!(energy < 5e-6, "{scene}: {energy:.1e}");
+        assert!(dissipation < 1e-4, "{scene}: {dissipation:.1e}");
+        assert!(image < 1e-6, "{scene}: {image:.1e}");
+        assert!(balance(&moving) < 1e-6, "{scene}: {:.1e}", balance(&moving));
+        // The implicit operator holds the metric: the steps are those of the other gauge.
+        assert!(5 * moving.counters.steps <= 6 * uniform.counters.steps, "{scene}");
+        assert!(moving.counters.krylov_iterations <= 4 * uniform.counters.krylov_iterations, "{scene}");
+        let [tall, low] = [f64::max, f64::min].map(|of| b.metric.iter().copied().reduce(of).expect("nodes"));
+        assert!(scene == "incompressible" || tall > 1.05 * low, "{scene}: the metric moves");
+    }
+}
+
+#[test]
+fn every_node_keeps_the_mass_that_it_carries() {
+    let changes = [
+        ("flow.gauge", "co-moving"),
+        ("density.protein.mobility", "none"),
+        ("time.end", "0.002"),
+        ("time.stop_at_equilibrium", "false"),
+    ];
+    let record = run(&shipped("three_fold", &changes));
+    assert_eq!(record.stop_reason, StopReason::EndTime);
+    let (first, end) = (&record.frames[0], last(&record));
+    let mut moved = 0.0_f64;
+    for node in 0..record.nodes() {
+        let mass = |frame: &Frame| frame.density[0][node] * frame.metric[node];
+        assert!((mass(end) / mass(first) - 1.0).abs() < 1e-13, "node {node}: {} {}", mass(first), mass(end));
+        moved = moved.max((end.metric[node] / first.metric[node] - 1.0).abs());
+    }
+    assert!(moved > 0.01, "{moved:.1e}");
+}
+
+#[test]
+fn an_incompressible_curve_keeps_the_length_of_every_piece() {
+    // Of the family whose Helmholtz operator is that of the grid; the others keep it to their order.
+    let changes = [("flow.gauge", "co-moving"), ("accuracy.tolerance", "1e-8"), ("accuracy.nodes", "512")];
+    let record = run(&shipped("incompressible", &changes));
+    let (first, end) = (&record.frames[0], last(&record));
+    assert!((end.length / first.length - 1.0).abs() < 1e-12);
+    // ∂_tg = gκ𝓘V̂ = −g∇_s(flux): pieces are stretched by what flows into them, so the length as a whole is kept only.
+    let change = first.metric.iter().zip(&end.metric).map(|(a, b)| (b / a - 1.0).abs()).fold(0.0, f64::max);
+    assert!(change > 1e-3, "{change:.1e}");
+}
+
+#[test]
+fn every_mobility_runs() {
+    for mobility in [
+        "identity",
+        "incompressible",
+        "area-preserving",
+        "incompressible-area-preserving",
+        "surface-diffusion",
+    ] {
+        let changes = [
+            ("flow.gauge", "co-moving"),
+            ("flow.normal_mobility", mobility),
+            ("time.end", "0.001"),
+            ("time.stop_at_equilibrium", "false"),
+        ];
+        let record = run(&shipped("length_penalty", &changes));
+        assert_eq!(record.stop_reason, StopReason::EndTime, "{mobility}");
+        assert!(largest_rise(&record) <= 1e-13, "{mobility}: {:.1e}", largest_rise(&record));
+        let (first, end) = (&record.frames[0], last(&record));
+        let area = (end.area / first.area - 1.0).abs();
+        let length = (end.length / first.length - 1.0).abs();
+        println!("{mobility}: area {area:.1e}, length {length:.1e}, {:?}", record.counters);
+        assert_eq!(
+            area < 1e-12,
+            mobility != "identity" && mobility != "incompressible",
+            "{mobility}: {area:.1e}"
+        );
+        assert_eq!(length < 1e-12, mobility.starts_with("incompressible"), "{mobility}: {length:.1e}");
+    }
+}
+
+#[test]
+fn a_run_switches_to_it_and_back() {
+    let whole = [("accuracy.tolerance", "1e-8"), ("accuracy.nodes", "384")];
+    let switches = "[{ time = 0.001, gauge = 'co-moving' }, { time = 0.004, gauge = 'scaled-arc-length' }]";
+    let unbroken = run(&shipped("length_penalty", &whole));
+    let switched = run(&shipped("length_penalty", &[&whole[..], &[("flow.switch", switches)]].concat()));
+    let (a, b) = (last(&unbroken), last(&switched));
+    assert_eq!(switched.counters.remaps, 2);
+    assert!((b.remap_error / b.energy).abs() < 1e-9, "{:.1e}", b.remap_error);
+    assert!((a.energy / b.energy - 1.0).abs() < 1e-7, "{} {}", a.energy, b.energy);
+    assert!(distance(a, b) < 1e-7, "{:.1e}", distance(a, b));
+}
