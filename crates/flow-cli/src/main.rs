@@ -12,7 +12,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use commands::{check, info, plot, run, scenes};
+use commands::{check, info, plot, run, scenes, schema};
 use error::CliError;
 
 /// Gradient flows of energies of closed planar curves that carry embedded densities.
@@ -30,6 +30,7 @@ enum Command {
     Info(info::Args),
     Plot(plot::Args),
     Scenes(scenes::Args),
+    Schema(schema::Args),
 }
 
 impl Command {
@@ -40,6 +41,7 @@ impl Command {
             Self::Info(args) => info::execute(args),
             Self::Plot(args) => plot::execute(args),
             Self::Scenes(args) => scenes::execute(args),
+            Self::Schema(args) => schema::execute(args),
         }
     }
 }

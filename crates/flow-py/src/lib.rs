@@ -18,7 +18,7 @@ mod _curveflow {
     #[pymodule_export]
     use super::record::{Record, read, run};
     #[pymodule_export]
-    use super::scene::{Scene, shipped};
+    use super::scene::{Scene, schema, shipped};
     #[pymodule_export]
     use super::system::System;
 }
