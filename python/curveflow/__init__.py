@@ -9,24 +9,72 @@ True
 from importlib.metadata import version as _version
 
 from .errors import BugError, CurveflowError, SceneError, SetupError, StorageError
+from .model import (
+    Accuracy,
+    Adhesion,
+    Agents,
+    Area,
+    Bending,
+    Circle,
+    Density,
+    Ellipse,
+    FigureEight,
+    Flow,
+    Length,
+    Local,
+    Membrane,
+    Output,
+    Packing,
+    Parametric,
+    Points,
+    Polar,
+    Regularization,
+    Switch,
+    Time,
+    Trillium,
+    schema,
+)
 from .result import Result, open
 from .running import Progress, run
 from .scene import Scene, scenes
 from .system import System
 
 __all__ = [
+    "Accuracy",
+    "Adhesion",
+    "Agents",
+    "Area",
+    "Bending",
     "BugError",
+    "Circle",
     "CurveflowError",
+    "Density",
+    "Ellipse",
+    "FigureEight",
+    "Flow",
+    "Length",
+    "Local",
+    "Membrane",
+    "Output",
+    "Packing",
+    "Parametric",
+    "Points",
+    "Polar",
     "Progress",
+    "Regularization",
     "Result",
     "Scene",
     "SceneError",
     "SetupError",
     "StorageError",
+    "Switch",
     "System",
+    "Time",
+    "Trillium",
     "open",
     "run",
     "scenes",
+    "schema",
 ]
 
 __version__ = _version("curveflow")
