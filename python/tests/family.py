@@ -1,7 +1,7 @@
 """Scenes of objects, between them with every table, every key and every name of a value."""
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Any, get_args, get_type_hints
 
 import numpy as np
@@ -17,6 +17,11 @@ def choices(table: type, key: str) -> tuple[str, ...]:
         return tuple(name for arg in inner for name in ((arg,) if isinstance(arg, str) else names(arg)))
 
     return names(get_type_hints(table)[key])
+
+
+def fields_of(scene: cf.Scene) -> dict[str, Any]:
+    """Return what a scene can be made of again."""
+    return {field.name: getattr(scene, field.name) for field in fields(scene) if field.init}
 
 
 ANGLES = np.linspace(0, 2 * np.pi, 16, endpoint=False)

@@ -4,8 +4,7 @@ from typing import Any
 
 import jsonschema
 import pytest
-from family import FAMILY, choices
-from test_model import fields_of
+from family import FAMILY, choices, fields_of
 
 import curveflow as cf
 from curveflow import _curveflow

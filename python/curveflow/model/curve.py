@@ -88,8 +88,8 @@ class Points(Table):
     """0 to 16."""
 
     def __repr__(self) -> str:
-        given = f"file={self.file!r}" if self.points is None else f"<{len(self.points)} points>"
-        return f"Points({given}, turning_number={self.turning_number!r})"
+        points = f"<{len(self.points)} points>" if isinstance(self.points, tuple) else repr(self.points)
+        return f"Points({points}, file={self.file!r}, turning_number={self.turning_number!r})"
 
 
 @dataclass(frozen=True, slots=True)

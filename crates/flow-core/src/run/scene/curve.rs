@@ -64,6 +64,7 @@ pub enum Shape {
     /// A closed curve through points, the first not repeated at the end.
     Points {
         /// The points in order, 8 to 16384 of them; read from `file` if the scene names one.
+        // One more, since a list may repeat its first point to close the curve.
         #[schemars(transform = Entries(MIN_POINTS, MAX_POINTS + 1))]
         points: Vec<[f64; 2]>,
     },
