@@ -9,6 +9,31 @@ True
 from importlib.metadata import version as _version
 
 from .errors import BugError, CurveflowError, SceneError, SetupError, StorageError
+from .model import (
+    Accuracy,
+    Adhesion,
+    Agents,
+    Area,
+    Bending,
+    Circle,
+    Density,
+    Ellipse,
+    FigureEight,
+    Flow,
+    Length,
+    Local,
+    Membrane,
+    Output,
+    Packing,
+    Parametric,
+    Points,
+    Polar,
+    Regularization,
+    Switch,
+    Time,
+    Trillium,
+    schema,
+)
 from .result import Result, open
 from .running import Progress, run
 from .scene import Scene, scenes
@@ -16,9 +41,28 @@ from .simulation import Simulation, State
 from .system import System
 
 __all__ = [
+    "Accuracy",
+    "Adhesion",
+    "Agents",
+    "Area",
+    "Bending",
     "BugError",
+    "Circle",
     "CurveflowError",
+    "Density",
+    "Ellipse",
+    "FigureEight",
+    "Flow",
+    "Length",
+    "Local",
+    "Membrane",
+    "Output",
+    "Packing",
+    "Parametric",
+    "Points",
+    "Polar",
     "Progress",
+    "Regularization",
     "Result",
     "Scene",
     "SceneError",
@@ -26,10 +70,14 @@ __all__ = [
     "Simulation",
     "State",
     "StorageError",
+    "Switch",
     "System",
+    "Time",
+    "Trillium",
     "open",
     "run",
     "scenes",
+    "schema",
 ]
 
 __version__ = _version("curveflow")

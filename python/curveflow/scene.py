@@ -4,26 +4,67 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
-
-import numpy as np
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 from . import _curveflow
 from .errors import SceneError
+from .model import Accuracy, Curve, Density, EnergyTerm, Flow, Output, Time, reading, writing
+from .model.curve import CURVES
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Scene:
     """A scene that has been checked: a curve, its densities and energy, how it flows and how accurately.
 
-    Made by :meth:`load`, :meth:`parse` or :meth:`shipped`; never changed afterwards. Scenes are equal if they
-    mean the same, and can be pickled.
+    Made of objects, or by :meth:`load`, :meth:`parse` or :meth:`shipped`; never changed afterwards, but
+    ``dataclasses.replace`` and :meth:`with_values` make others of it. Scenes are equal if they mean the same, and
+    can be pickled. A scene holds everything as it was understood, with all defaults:
+
+    >>> import curveflow as cf
+    >>> scene = cf.Scene(curve=cf.Circle(1), energy=[cf.Bending(1)], time=cf.Time(2.5))
+    >>> scene.accuracy.tolerance
+    1e-05
+    >>> scene == cf.Scene.parse(scene.to_toml())
+    True
+
+    Raises:
+        SceneError: the objects make no scene; the message names keys.
+        TypeError: something else than objects of tables, or a value that is neither number, text, truth value nor list.
     """
 
-    __slots__ = ("_native",)
-    _native: _curveflow.Scene
+    title: str = ""
+    """Title."""
+    curve: Curve
+    """The initial curve, of one of the shapes."""
+    density: Sequence[Density] = ()
+    """The densities, in the order of the components; kept as a tuple."""
+    energy: Sequence[EnergyTerm]
+    """The terms of the energy, at most one of each kind; kept as a tuple, in the order of the reference."""
+    flow: Flow = Flow()
+    """How the curve may move."""
+    time: Time
+    """How long to run."""
+    accuracy: Accuracy = Accuracy()
+    """How exact the answer is to be."""
+    output: Output = Output()
+    """Which states to save."""
+    _native: _curveflow.Scene = field(init=False, repr=False, compare=False)
 
-    def __init__(self) -> None:
-        raise TypeError("use Scene.load(path), Scene.parse(text) or Scene.shipped(name)")
+    def __post_init__(self) -> None:
+        text = "".join(
+            [
+                f"title = {writing.value('title', self.title)}\n",
+                writing.table("curve", self.curve, *CURVES),
+                writing.density_tables(self.density),
+                writing.energy_tables(self.energy),
+                writing.table("flow", self.flow, Flow),
+                writing.table("time", self.time, Time),
+                writing.table("accuracy", self.accuracy, Accuracy),
+                writing.table("output", self.output, Output),
+            ]
+        )
+        self._hold(_curveflow.Scene.parse_written(text, "scene"))
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Scene:
@@ -65,37 +106,24 @@ class Scene:
 
         Args:
             values: dotted keys and their values: ``{"accuracy.tolerance": 1e-4, "density.protein.initial": "0.5"}``.
-                Numbers, texts (formulas too), truth values, lists and arrays are allowed; missing keys are added.
+                Numbers, texts (formulas too), truth values, lists, arrays and the objects of whole tables are allowed;
+                missing keys are added.
 
         Raises:
             SceneError: what the changes make of the scene is not valid.
             TypeError: a value is of another type.
         """
-        changes = [(key, _toml(key, value)) for key, value in values.items()]
+        changes = [(key, writing.value(key, value)) for key, value in values.items()]
         return self._of(_curveflow.Scene.parse(self.text, self._native.source_name, changes))
 
     @property
-    def title(self) -> str:
-        """Title; empty if the scene gives none."""
-        return self._native.title
-
-    @property
     def text(self) -> str:
-        """The scene as given, verbatim; after :meth:`with_values`, TOML with the changes and without comments."""
+        """The scene as given, verbatim; of objects, or after :meth:`with_values`, TOML without comments."""
         return self._native.text
 
     def to_toml(self) -> str:
         """Return the scene as understood: TOML with every default filled in."""
         return self._native.to_toml()
-
-    def __repr__(self) -> str:
-        return f"<Scene {self._native.source_name}: {self.title!r}>"
-
-    def __eq__(self, other: object) -> bool:
-        return self.to_toml() == other.to_toml() if isinstance(other, Scene) else NotImplemented
-
-    def __hash__(self) -> int:
-        return hash(self.to_toml())
 
     def __reduce__(self) -> tuple[object, ...]:
         return Scene.parse, (self.text, self._native.source_name)
@@ -103,23 +131,16 @@ class Scene:
     @classmethod
     def _of(cls, native: _curveflow.Scene) -> Scene:
         scene = object.__new__(cls)
-        scene._native = native
+        scene._hold(native)
         return scene
+
+    def _hold(self, native: _curveflow.Scene) -> None:
+        """Take every field from the core: what was given is there, and all defaults."""
+        for key, value in reading.objects(json.loads(native.to_json())).items():
+            object.__setattr__(self, key, value)
+        object.__setattr__(self, "_native", native)
 
 
 def scenes() -> list[str]:
     """Return the names of the scenes that come with the package, for :meth:`Scene.shipped`."""
     return [name for name, _ in _curveflow.shipped()]
-
-
-def _toml(key: str, value: object) -> str:
-    """Write a value as TOML."""
-    if isinstance(value, np.generic | np.ndarray):
-        value = value.tolist()
-    if isinstance(value, bool | int | str):
-        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007F")
-    if isinstance(value, float):
-        return repr(value)
-    if isinstance(value, list | tuple):
-        return "[" + ", ".join(_toml(key, item) for item in value) + "]"
-    raise TypeError(f"{key}: {type(value).__name__} is not a number, text, truth value or list of these")

@@ -23,8 +23,8 @@ def test_there_are_two_commands_and_both_exist():
 
 
 def test_the_python_lines_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    (code,) = blocks("python")
+    first, second = blocks("python")
     monkeypatch.chdir(tmp_path)
-    exec(compile(code, "README.md", "exec"), {})
+    exec(compile(first + second, "README.md", "exec"), {})
     assert (tmp_path / "three_fold.png").stat().st_size > 10_000
     assert (tmp_path / "three_fold.h5").exists()

@@ -12,7 +12,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use commands::{check, info, plot, resume, run, scenes};
+use commands::{check, info, plot, resume, run, scenes, schema};
 use error::CliError;
 
 /// Gradient flows of energies of closed planar curves that carry embedded densities.
@@ -31,6 +31,7 @@ enum Command {
     Info(info::Args),
     Plot(plot::Args),
     Scenes(scenes::Args),
+    Schema(schema::Args),
 }
 
 impl Command {
@@ -42,6 +43,7 @@ impl Command {
             Self::Info(args) => info::execute(args),
             Self::Plot(args) => plot::execute(args),
             Self::Scenes(args) => scenes::execute(args),
+            Self::Schema(args) => schema::execute(args),
         }
     }
 }

@@ -602,6 +602,20 @@ fn a_wrong_override_is_shown_as_it_was_given() {
 }
 
 #[test]
+fn problems_of_a_scene_that_a_program_wrote_are_at_keys() {
+    let text = GOOD.replace("rigidity = 1.0", "rigidity = -1").replace("[time]\nend = 1.0", "");
+    let error = Scene::parse(&text, "scene").unwrap_err().at_keys();
+    let places: Vec<&Place> = error.problems().iter().map(|problem| &problem.place).collect();
+    assert_eq!(places, [&Place::Key("energy.bending.rigidity".into()), &Place::Key("time".into())]);
+    let message = error.to_string();
+    assert!(
+        message.contains("scene, energy.bending.rigidity\n  `energy.bending.rigidity` = -1"),
+        "{message}"
+    );
+    assert!(message.contains("scene, time\n  `time` is missing") && !message.contains("line "), "{message}");
+}
+
+#[test]
 fn files_that_are_no_scenes() {
     assert!(matches!(Scene::read("no/such/scene.toml"), Err(SceneError::Unreadable { .. })));
     let large = "#".repeat((1 << 20) + 1);

@@ -19,7 +19,7 @@ mod _curveflow {
     #[pymodule_export]
     use super::record::{Record, read, run};
     #[pymodule_export]
-    use super::scene::{Scene, shipped};
+    use super::scene::{Scene, schema, shipped};
     #[pymodule_export]
     use super::simulation::Simulation;
     #[pymodule_export]

@@ -38,6 +38,13 @@ impl Scene {
         Ok(Self { core, source_name })
     }
 
+    /// Checks a scene whose text a program wrote: messages say keys, not lines.
+    #[staticmethod]
+    fn parse_written(py: Python<'_>, text: &str, source_name: String) -> PyResult<Self> {
+        let core = detached(py, || run::Scene::parse(text, &source_name).map_err(run::SceneError::at_keys))?;
+        Ok(Self { core, source_name })
+    }
+
     /// Title.
     #[getter]
     fn title(&self) -> &str {
@@ -53,6 +60,11 @@ impl Scene {
     /// The scene with every default filled in.
     fn to_toml(&self) -> String {
         self.core.to_toml()
+    }
+
+    /// [`Scene::to_toml`] as JSON.
+    fn to_json(&self) -> String {
+        serde_json::to_string(&self.core).expect("every scene can be written as JSON")
     }
 
     /// Density of the agents and κ₀ at `density`, ρ₋ and ρ₊ at `curvature`; none without agents.
@@ -71,6 +83,12 @@ impl Scene {
         let high = curvature.iter().map(|&kappa| lines.high_density.evaluate(&[kappa, 0.0])).collect();
         Ok(Some((&agents.density, vector(py, preferred), vector(py, low), vector(py, high))))
     }
+}
+
+/// JSON Schema of a scene, as JSON.
+#[pyfunction]
+pub fn schema() -> String {
+    run::Scene::schema().to_string()
 }
 
 /// Name and text of each scene that comes with the package.

@@ -8,3 +8,4 @@ pub mod resume;
 pub mod run;
 mod scene_args;
 pub mod scenes;
+pub mod schema;

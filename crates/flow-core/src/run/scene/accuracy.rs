@@ -1,21 +1,26 @@
 //! `[accuracy]`: how exact the answer is to be, and by which methods.
 
+use schemars::{JsonSchema, json_schema};
 use serde::{Serialize, Serializer};
 
 use super::choice::names;
 use super::entry::Entry;
 use super::error::{Bound, Fault};
 use super::flow::NormalMobility;
+use super::keywords::{Within, inline_schema, number};
 use super::section::Section;
 use crate::operators::Helmholtz;
 
+const TOLERANCE: Bound = Bound::Between(1e-11, 1e-1);
 const MIN_NODES: f64 = 8.0;
 const MAX_NODES: f64 = 65_536.0;
 
 /// Table `[accuracy]`; may be left out.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(default)]
 pub struct Accuracy {
     /// The relative error asked for, in time and in space together: in [1e-11, 1e-1], 1e-5 unless given.
+    #[schemars(transform = Within(TOLERANCE))]
     pub tolerance: f64,
     /// Number of nodes on the curve.
     pub nodes: Nodes,
@@ -81,8 +86,7 @@ impl Accuracy {
     pub(super) fn read(mut section: Section<'_>, mobility: NormalMobility) -> Self {
         let default = Self::default();
         let tolerance = section.get("tolerance");
-        let tolerance =
-            tolerance.and_then(|entry| entry.number(Bound::Between(1e-11, 1e-1), "try 1e-5, the default"));
+        let tolerance = tolerance.and_then(|entry| entry.number(TOLERANCE, "try 1e-5, the default"));
         let nodes = section.get("nodes").and_then(|entry| read_nodes(&entry));
         let derivative = section.get("derivative").and_then(|entry| entry.choice(&[]));
         let linear_solver = section.get("linear_solver").and_then(|entry| entry.choice(&[]));
@@ -129,6 +133,16 @@ fn read_nodes(entry: &Entry<'_>) -> Option<Nodes> {
     let bound = Bound::Between(MIN_NODES, MAX_NODES);
     entry.integer_or("an integer or \"auto\"", bound, remedy).map(|count| Nodes::Count(count as usize))
 }
+
+inline_schema!(
+    Nodes,
+    json_schema!({
+        "anyOf": [
+            { "type": "string", "const": "auto" },
+            { "type": "integer", "minimum": number(MIN_NODES), "maximum": number(MAX_NODES) },
+        ],
+    })
+);
 
 impl Serialize for Nodes {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

@@ -4,10 +4,10 @@
 macro_rules! names {
     ($(#[$doc:meta])* pub enum $type:ident { $($(#[$variant_doc:meta])* $variant:ident = $name:literal,)+ }) => {
         $(#[$doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, schemars::JsonSchema)]
         #[non_exhaustive]
         pub enum $type {
-            $($(#[$variant_doc])* $variant,)+
+            $($(#[$variant_doc])* #[schemars(rename = $name)] $variant,)+
         }
 
         impl $type {

@@ -1,10 +1,14 @@
 //! `[curve]`: the initial curve, counter-clockwise.
 
+use schemars::transform::Transform;
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
+use serde_json::{Value, json};
 
 use super::entry::Entry;
 use super::error::{Bound, Fault};
 use super::formula::Formula;
+use super::keywords::{Each, Entries, Within};
 use super::points;
 use super::section::Section;
 
@@ -16,7 +20,8 @@ const SHAPES: [&str; 7] = ["circle", "ellipse", "trillium", "polar", "parametric
 const ANGLE: &[&str] = &["phi"];
 
 /// The initial curve.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(transform = by_shape)]
 pub struct Curve {
     /// Its shape.
     #[serde(flatten)]
@@ -26,18 +31,20 @@ pub struct Curve {
 }
 
 /// The shapes, by their name under `shape`. Angles φ run over `[0, 2π)`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "shape", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Shape {
     /// A circle about the origin.
     Circle {
         /// Radius > 0.
+        #[schemars(transform = Within(Bound::Positive))]
         radius: f64,
     },
     /// An ellipse with its axes along x and y.
     Ellipse {
         /// Semi-axes along x and y, both > 0.
+        #[schemars(transform = Each(Bound::Positive))]
         semi_axes: [f64; 2],
     },
     /// `(x, y) = r (cos φ, sin φ) + (0.05 sin 4φ, 0)` with `r = 1 + 0.35 cos 3φ`: the curve of the paper's figures.
@@ -57,11 +64,14 @@ pub enum Shape {
     /// A closed curve through points, the first not repeated at the end.
     Points {
         /// The points in order, 8 to 16384 of them; read from `file` if the scene names one.
+        // One more, since a list may repeat its first point to close the curve.
+        #[schemars(transform = Entries(MIN_POINTS, MAX_POINTS + 1))]
         points: Vec<[f64; 2]>,
     },
     /// A symmetric figure eight, turning number 0.
     FigureEight {
         /// Half its width, > 0; 1 unless given.
+        #[schemars(default = "default_size", transform = Within(Bound::Positive))]
         size: f64,
     },
 }
@@ -112,6 +122,32 @@ fn turning_numbers(shape: &str) -> (i32, Bound) {
     }
 }
 
+/// The turning numbers that go with each shape, and the file that can stand for points.
+fn by_shape(schema: &mut Schema) {
+    let turning_number = schema.pointer("/properties/turning_number").cloned();
+    schema.remove("properties");
+    schema.remove("required");
+    let Some(Value::Array(shapes)) = schema.get_mut("oneOf") else { unreachable!("one of the shapes") };
+    for shape in shapes.iter_mut() {
+        let name = shape.pointer("/properties/shape/const").and_then(Value::as_str);
+        let (default, bound) = turning_numbers(name.expect("a shape has a name"));
+        shape["properties"]["turning_number"] = turning_number.clone().into();
+        let turning_number: &mut Schema =
+            (&mut shape["properties"]["turning_number"]).try_into().expect("a key has a schema");
+        Within(bound).transform(turning_number);
+        turning_number.insert("default".to_owned(), default.into());
+    }
+    let points = shapes.iter().find(|shape| shape["properties"].get("points").is_some());
+    let mut file = points.expect("points are a shape").clone();
+    let description =
+        "File of the points, one on each line, x and y; looked for from the folder of the scene.";
+    file["required"] = json!(["shape", "file"]);
+    let keys = file["properties"].as_object_mut().expect("a shape has keys");
+    keys.remove("points");
+    keys.insert("file".to_owned(), json!({ "type": "string", "description": description }));
+    shapes.push(file);
+}
+
 fn circle(section: &mut Section<'_>) -> Option<Shape> {
     let radius = section.required("radius", "radius = 1.0");
     Some(Shape::Circle { radius: radius?.number(Bound::Positive, "try radius = 1.0")? })
@@ -134,8 +170,14 @@ fn parametric(section: &mut Section<'_>) -> Option<Shape> {
 }
 
 fn figure_eight(section: &mut Section<'_>) -> Option<Shape> {
-    let size = section.get("size").map_or(Some(1.0), |entry| entry.number(Bound::Positive, "try size = 1.0"));
+    let size = section
+        .get("size")
+        .map_or(Some(default_size()), |entry| entry.number(Bound::Positive, "try size = 1.0"));
     Some(Shape::FigureEight { size: size? })
+}
+
+fn default_size() -> f64 {
+    1.0
 }
 
 fn through_points(section: &mut Section<'_>) -> Option<Shape> {

@@ -1,11 +1,13 @@
 //! `[[density]]`: densities carried by the curve, in the order of the components.
 
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 
 use super::choice::names;
 use super::entry::Entry;
-use super::error::Fault;
+use super::error::{Bound, Fault};
 use super::formula::Formula;
+use super::keywords::Within;
 use super::section::Section;
 
 /// Names that mean something in expressions; a density called so could not be written there.
@@ -34,9 +36,10 @@ const RESERVED: [&str; 20] = [
 const MAX_NAME: usize = 64;
 
 /// One density ρ, per unit arc length.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Density {
     /// Its name, an identifier: used in expressions, in the output file and in Python.
+    #[schemars(transform = identifier)]
     pub name: String,
     /// Initial value, an expression of `s` in `[0, 1)`, the fraction of arc length from the first point.
     pub initial: Formula,
@@ -44,6 +47,7 @@ pub struct Density {
     pub mobility: DensityMobility,
     /// Weight w > 0 of the diffusion, an expression of `s`; 1 unless given.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = Within(Bound::Positive))]
     pub weight: Option<Formula>,
 }
 
@@ -108,6 +112,14 @@ fn checked_name(entry: &Entry<'_>, names: &[Option<String>]) -> Option<String> {
     };
     entry.fault(fault);
     None
+}
+
+/// What [`checked_name`] asks for, but that names differ.
+fn identifier(schema: &mut Schema) {
+    schema.insert("pattern".to_owned(), "^[A-Za-z][A-Za-z0-9_]*$".into());
+    schema.insert("maxLength".to_owned(), MAX_NAME.into());
+    let not = serde_json::json!({ "anyOf": [{ "enum": RESERVED }, { "pattern": "_sigma$" }] });
+    schema.insert("not".to_owned(), not);
 }
 
 /// `name_sigma` is the derivative of `name`, so no density may be called so.

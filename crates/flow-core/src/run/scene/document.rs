@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 use toml::de::{DeTable, Deserializer};
@@ -19,24 +20,33 @@ use super::{Accuracy, Curve, Density, Energy, Flow, Gauge, Nodes, Output, Time};
 pub const MAX_SCENE_BYTES: usize = 1 << 20;
 
 /// A scene that has been checked: everything that a run needs to know.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(
+    title = "A scene of Curveflow",
+    description = "A curve, its densities and energy, how it flows and how accurately."
+)]
 pub struct Scene {
     /// Title; empty unless given.
+    #[schemars(default)]
     pub title: String,
     /// Table `[curve]`.
     pub curve: Curve,
     /// Tables `[[density]]`, in the order of the components.
     #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default)]
     pub density: Vec<Density>,
     /// Tables `[energy.*]`.
     pub energy: Energy,
     /// Table `[flow]`.
+    #[schemars(default)]
     pub flow: Flow,
     /// Table `[time]`.
     pub time: Time,
     /// Table `[accuracy]`.
+    #[schemars(default)]
     pub accuracy: Accuracy,
     /// Table `[output]`.
+    #[schemars(default)]
     pub output: Output,
     #[serde(skip)]
     text: String,

@@ -40,6 +40,17 @@ impl SceneError {
             _ => &[],
         }
     }
+
+    /// The same problems at their keys instead of lines: for a scene whose text a program wrote and nobody reads.
+    #[must_use]
+    pub fn at_keys(mut self) -> Self {
+        if let Self::Invalid { problems, .. } = &mut self {
+            for problem in problems {
+                problem.place = Place::Key(problem.key.clone());
+            }
+        }
+        self
+    }
 }
 
 /// One thing that is wrong with a scene.
@@ -73,6 +84,8 @@ pub enum Place {
     Line { number: usize, text: String },
     /// A `--set key=value` of the command line.
     Override { key: String, value: String },
+    /// The value of a key in a program.
+    Key(String),
     /// Nowhere: the whole table is missing.
     Nowhere,
 }

@@ -1,15 +1,18 @@
 //! `[flow]`: how the curve may move.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::choice::names;
-use super::error::Fault;
+use super::error::{Bound, Fault};
 use super::formula::Formula;
+use super::keywords::Within;
 use super::section::Section;
 use super::switch::Switch;
 
 /// Table `[flow]`; may be left out.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(default)]
 pub struct Flow {
     /// The normal mobility 𝓑.
     pub normal_mobility: NormalMobility,
@@ -18,6 +21,7 @@ pub struct Flow {
     /// The metric of the graded gauge, and the first one of the co-moving gauge, an expression of `s` in `[0, 1)` up to a
     /// factor: nodes crowd where it is small.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = Within(Bound::Positive))]
     pub grading: Option<Formula>,
     /// Whether the run stops once the curve crosses itself more often than at the start; crossings are legal unless
     /// this is set.

@@ -1,7 +1,9 @@
 //! Expressions in scenes, with the text that they come from.
 
+use schemars::json_schema;
 use serde::{Serialize, Serializer};
 
+use super::keywords::inline_schema;
 use crate::expression::{Expression, ExpressionError, Program};
 
 /// A number or an expression of a scene, with its text, ready to be evaluated.
@@ -68,6 +70,8 @@ impl Formula {
 fn owned(variables: &[&str]) -> Vec<String> {
     variables.iter().map(|&name| name.to_owned()).collect()
 }
+
+inline_schema!(Formula, json_schema!({ "type": ["number", "string"] }));
 
 /// Two formulas are equal if they are written alike, in the same variables.
 impl PartialEq for Formula {

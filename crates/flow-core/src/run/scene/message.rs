@@ -59,6 +59,7 @@ impl Display for Place {
         match self {
             Self::Line { number, text } => write!(out, "line {number} | {text}"),
             Self::Override { key, value } => write!(out, "--set {}={}", plain(key), plain(value)),
+            Self::Key(key) => write!(out, "{}", plain(key)),
             Self::Nowhere => write!(out, "whole file"),
         }
     }

@@ -4,7 +4,8 @@
 //! unknown key, so the list of allowed keys is the code itself. Nothing stops at the first mistake: every problem
 //! of a scene is reported at once, each with its key, line, value, bound and one thing to try.
 //!
-//! A new energy is one file in `energy/` and its lines in the list of `energy/table.rs`.
+//! A new energy is one file in `energy/` and its lines in the list of `energy/table.rs`. The JSON Schema follows from the
+//! types; the class of the same name in `python/curveflow/model` is asked for by a test there.
 //!
 //! ```
 //! use flow_core::run::Scene;
@@ -30,11 +31,13 @@ mod entry;
 mod error;
 mod flow;
 mod formula;
+mod keywords;
 mod message;
 mod output;
 mod overrides;
 mod points;
 mod report;
+mod schema;
 mod section;
 mod shipped;
 mod suggest;

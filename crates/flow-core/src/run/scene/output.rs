@@ -1,42 +1,48 @@
 //! `[output]`: which states to save.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::choice::names;
 use super::entry::Entry;
 use super::error::{Bound, Fault};
+use super::keywords::{Each, Entries, Within};
 use super::section::Section;
 
 /// More frames than this are more likely a slip than a wish.
 const MAX_FRAMES: usize = 100_000;
-const DEFAULT_FRAMES: usize = 200;
+const COUNT: Bound = Bound::Between(1.0, MAX_FRAMES as f64);
 
 /// Table `[output]`; may be left out.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Output {
     /// When to save a state; the initial and the final one are always saved.
     #[serde(flatten)]
     pub frames: Frames,
     /// Fields to save besides those that every frame holds.
     #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(default)]
     pub fields: Vec<OutputField>,
 }
 
 /// When to save a state.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 #[non_exhaustive]
 pub enum Frames {
     /// A number of frames over the whole run.
     Spaced {
         /// How many, at least 1; 200 unless given.
+        #[schemars(default = "default_frames", transform = Within(COUNT))]
         frames: usize,
         /// How they are spread over the time.
+        #[schemars(default = "default_spacing")]
         spacing: Spacing,
     },
     /// At given times.
     At {
         /// Increasing, each in [0, end].
+        #[schemars(transform = Each(Bound::AtLeast(0.0)), transform = Entries(1, MAX_FRAMES))]
         times: Vec<f64>,
     },
 }
@@ -69,9 +75,17 @@ names! {
     }
 }
 
+fn default_frames() -> usize {
+    200
+}
+
+fn default_spacing() -> Spacing {
+    Spacing::Linear
+}
+
 impl Default for Output {
     fn default() -> Self {
-        let frames = Frames::Spaced { frames: DEFAULT_FRAMES, spacing: Spacing::Linear };
+        let frames = Frames::Spaced { frames: default_frames(), spacing: default_spacing() };
         Self { frames, fields: Vec::new() }
     }
 }
@@ -81,8 +95,8 @@ impl Output {
     pub(super) fn read(mut section: Section<'_>, end: Option<f64>) -> Option<Self> {
         let (frames, spacing, times) = (section.get("frames"), section.get("spacing"), section.get("times"));
         let fields = section.get("fields").map_or(Some(Vec::new()), |entry| read_fields(&entry));
-        let count = frames.as_ref().map_or(Some(DEFAULT_FRAMES), read_count);
-        let spaced = spacing.as_ref().map_or(Some(Spacing::Linear), |entry| entry.choice(&[]));
+        let count = frames.as_ref().map_or(Some(default_frames()), read_count);
+        let spaced = spacing.as_ref().map_or(Some(default_spacing()), |entry| entry.choice(&[]));
         if times.is_some() {
             for key in ["frames", "spacing"].into_iter().filter(|key| section.has(key)) {
                 let remedy = "keep `times` alone, or `frames` with `spacing`";
@@ -112,14 +126,13 @@ fn read_fields(entry: &Entry<'_>) -> Option<Vec<OutputField>> {
 }
 
 fn read_count(entry: &Entry<'_>) -> Option<usize> {
-    entry.integer(Bound::Between(1.0, MAX_FRAMES as f64), "try 200, the default").map(|count| count as usize)
+    entry.integer(COUNT, "try 200, the default").map(|count| count as usize)
 }
 
 fn read_times(entry: &Entry<'_>, end: Option<f64>) -> Option<Vec<f64>> {
     let list = entry.list("a list of times")?;
     if !(1..=MAX_FRAMES).contains(&list.len()) {
-        let bound = Bound::Between(1.0, MAX_FRAMES as f64);
-        entry.fault(Fault::WrongCount { count: list.len(), bound, remedy: "try times = [0.1, 1.0]" });
+        entry.fault(Fault::WrongCount { count: list.len(), bound: COUNT, remedy: "try times = [0.1, 1.0]" });
         return None;
     }
     let bound = end.map_or(Bound::AtLeast(0.0), |end| Bound::Between(0.0, end));

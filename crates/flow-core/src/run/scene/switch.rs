@@ -1,22 +1,26 @@
 //! `[[flow.switch]]`: changes of the gauge on the way.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::entry::Entry;
 use super::error::{Bound, Fault};
 use super::flow::Gauge;
 use super::formula::Formula;
+use super::keywords::Within;
 use super::section::Section;
 
 /// A change of the gauge; the curve is the same, its nodes lie elsewhere.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Switch {
     /// When, in `[0, end]`; the run makes a step end there.
+    #[schemars(transform = Within(Bound::AtLeast(0.0)))]
     pub time: f64,
     /// The gauge from then on.
     pub gauge: Gauge,
-    /// Its metric, as [`super::Flow::grading`].
+    /// Its metric, as `flow.grading`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = Within(Bound::Positive))]
     pub grading: Option<Formula>,
 }
 

@@ -1,19 +1,22 @@
 //! `[energy.adhesion]`: `∬ G(|γ(σ) − γ(σ′)|²) dσ dσ′`.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::run::scene::error::Bound;
 use crate::run::scene::formula::Formula;
+use crate::run::scene::keywords::Within;
 use crate::run::scene::section::Section;
 
 /// Parameters of the interaction of the curve with itself.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Adhesion {
     /// Kernel G, an expression of `q`, the squared distance of two points; in energy / length².
     pub kernel: Formula,
     /// Distance beyond which the kernel is taken as zero, where it should be; if absent, the distance beyond which
     /// G and G′ are below the rounding of their largest values.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = Within(Bound::Positive))]
     pub cutoff: Option<f64>,
 }
 

@@ -2,21 +2,25 @@
 //! `∫ (δ/2)|∇_sκ|² + f(κ, ρ)/δ + (ε/2)|∇_sρ|² + F(κ, ρ)/ε dσ` with
 //! `f = (κ − κ₀(ρ))²/2` and `F = 4 (ρ − ρ₋(κ))² (ρ − ρ₊(κ))²`.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::known::known_density;
 use crate::run::scene::error::Bound;
 use crate::run::scene::formula::Formula;
+use crate::run::scene::keywords::Within;
 use crate::run::scene::section::Section;
 
 /// Parameters of the curvature agents.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Agents {
     /// Name of the density ρ.
     pub density: String,
     /// Width ε > 0 of the fronts between low and high density.
+    #[schemars(transform = Within(Bound::Positive))]
     pub epsilon: f64,
     /// Width δ > 0 of changes of curvature.
+    #[schemars(transform = Within(Bound::Positive))]
     pub delta: f64,
     /// Preferred curvature κ₀, an expression of `rho`.
     pub preferred_curvature: Formula,

@@ -1,12 +1,14 @@
 //! `[energy.area]`: pressure `−pA`, or penalty `(β/2)(A − A*)²` on the enclosed area A.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::run::scene::error::{Bound, Fault};
+use crate::run::scene::keywords::Within;
 use crate::run::scene::section::Section;
 
 /// Parameters of the area energy.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 #[non_exhaustive]
 pub enum Area {
@@ -18,6 +20,7 @@ pub enum Area {
     /// `(β/2)(A − A*)²`.
     Penalty {
         /// Strength β ≥ 0, in energy / area².
+        #[schemars(transform = Within(Bound::AtLeast(0.0)))]
         penalty: f64,
         /// The area A* that costs nothing.
         #[serde(flatten)]
@@ -26,14 +29,21 @@ pub enum Area {
 }
 
 /// The area that a penalty aims at.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub enum AreaTarget {
-    /// A* itself, signed: positive inside a counter-clockwise curve, 0 for a symmetric figure eight.
+    /// In the unit of area.
     #[serde(rename = "target")]
-    Absolute(f64),
-    /// A* over the initial area, > 0.
+    Absolute(
+        /// A* itself, signed: positive inside a counter-clockwise curve, 0 for a symmetric figure eight.
+        f64,
+    ),
+    /// Relative to the curve at the start.
     #[serde(rename = "target_ratio")]
-    Ratio(f64),
+    Ratio(
+        /// A* over the initial area, > 0.
+        #[schemars(transform = Within(Bound::Positive))]
+        f64,
+    ),
 }
 
 impl Area {

@@ -1,17 +1,20 @@
 //! `[energy.bending]`: `∫ (b/2) (κ − c₀)² dσ`.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::known::known_density;
 use crate::run::scene::entry::Entry;
 use crate::run::scene::error::{Bound, Fault};
 use crate::run::scene::formula::Formula;
+use crate::run::scene::keywords::Within;
 use crate::run::scene::section::Section;
 
 /// Parameters of the bending energy.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Bending {
     /// Bending rigidity b ≥ 0, in energy × length.
+    #[schemars(transform = Within(Bound::AtLeast(0.0)))]
     pub rigidity: f64,
     /// Preferred curvature c₀, a number or an expression of `rho`; 0 if absent.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -1,12 +1,14 @@
 //! `[energy.length]`: tension `σ|Γ|`, or penalty `(β/2)(|Γ| − L*)²`.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::run::scene::error::{Bound, Fault};
+use crate::run::scene::keywords::Within;
 use crate::run::scene::section::Section;
 
 /// Parameters of the length energy.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 #[non_exhaustive]
 pub enum Length {
@@ -18,6 +20,7 @@ pub enum Length {
     /// `(β/2)(|Γ| − L*)²`.
     Penalty {
         /// Strength β ≥ 0, in energy / length².
+        #[schemars(transform = Within(Bound::AtLeast(0.0)))]
         penalty: f64,
         /// The length L* that costs nothing.
         #[serde(flatten)]
@@ -26,14 +29,22 @@ pub enum Length {
 }
 
 /// The length that a penalty aims at.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub enum LengthTarget {
-    /// L* itself, > 0.
+    /// In the unit of length.
     #[serde(rename = "target")]
-    Absolute(f64),
-    /// L* over the initial length |Γ₀|, > 0.
+    Absolute(
+        /// L* itself, > 0.
+        #[schemars(transform = Within(Bound::Positive))]
+        f64,
+    ),
+    /// Relative to the curve at the start.
     #[serde(rename = "target_ratio")]
-    Ratio(f64),
+    Ratio(
+        /// L* over the initial length |Γ₀|, > 0.
+        #[schemars(transform = Within(Bound::Positive))]
+        f64,
+    ),
 }
 
 impl Length {

@@ -1,12 +1,13 @@
 //! `[energy.local]`: `∫ e(κ, ∇_sκ, ρ, ∇_sρ) dσ` with a user's expression.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::run::scene::formula::Formula;
 use crate::run::scene::section::Section;
 
 /// Parameters of a general local energy.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Local {
     /// Energy per unit arc length: an expression of `kappa`, `kappa_sigma`, then `name` and `name_sigma` of each density
     /// in order, where `_sigma` is the derivative by arc length.

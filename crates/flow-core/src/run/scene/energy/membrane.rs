@@ -1,17 +1,20 @@
 //! `[energy.membrane]`: `∫ (ρ − 1)²/(2ε) dσ`.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::known::known_density;
 use crate::run::scene::error::Bound;
+use crate::run::scene::keywords::Within;
 use crate::run::scene::section::Section;
 
 /// Parameters of the penalty on stretching the membrane.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Membrane {
     /// Name of the membrane density ρ, 1 at rest.
     pub density: String,
     /// Compressibility ε > 0, in length / energy.
+    #[schemars(transform = Within(Bound::Positive))]
     pub epsilon: f64,
 }
 

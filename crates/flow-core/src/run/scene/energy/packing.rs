@@ -1,18 +1,21 @@
 //! `[energy.packing]`: `∫ (ρᵀPρ − 1)²/(2ε) dσ` over all densities.
 
 use nalgebra::DMatrix;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::run::scene::entry::Entry;
 use crate::run::scene::error::{Bound, Fault};
+use crate::run::scene::keywords::Within;
 use crate::run::scene::section::Section;
 
 /// Parameters of the packing of a blend.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Packing {
     /// P by rows: symmetric, positive definite, one row and one column per density in the order of the scene.
     pub matrix: Vec<Vec<f64>>,
     /// Compressibility ε > 0, in length / energy.
+    #[schemars(transform = Within(Bound::Positive))]
     pub epsilon: f64,
 }
 

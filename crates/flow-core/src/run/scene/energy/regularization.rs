@@ -1,14 +1,17 @@
 //! `[energy.regularization]`: `∫ (δ/2) |∇_sκ|² dσ`.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::run::scene::error::Bound;
+use crate::run::scene::keywords::Within;
 use crate::run::scene::section::Section;
 
 /// Parameters of the curvature regularisation.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Regularization {
     /// Weight δ > 0, in energy × length³.
+    #[schemars(transform = Within(Bound::Positive))]
     pub delta: f64,
 }
 

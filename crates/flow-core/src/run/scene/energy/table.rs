@@ -1,12 +1,14 @@
 //! The list of energy terms.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{Adhesion, Agents, Area, Bending, Length, Local, Membrane, Packing, Regularization};
 use crate::run::scene::section::Section;
 
 /// Energies named by the scene; an absent table is an absent term.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
+#[schemars(extend("minProperties" = 1))]
 #[non_exhaustive]
 pub struct Energy {
     /// Table `[energy.bending]`.

@@ -1,0 +1,26 @@
+"""How exact the answer is to be, and by which methods: table ``[accuracy]``."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from .schema import default
+from .table import Table
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Accuracy(Table):
+    """The tolerance, and what follows from it unless it is given."""
+
+    tolerance: float = default("accuracy", "tolerance")
+    """The relative error asked for, in time and in space together: in [1e-11, 1e-1]."""
+    nodes: int | Literal["auto"] = default("accuracy", "nodes")
+    """Number of nodes on the curve, 8 to 65536, or ``auto``: as many as the tolerance needs."""
+    derivative: Literal["fourier", "central-2", "central-4", "central-6", "central-8"] = default(
+        "accuracy", "derivative"
+    )
+    """Discrete derivative along the curve: trigonometric, or central differences of order 2 to 8 (THEORY.md, D2)."""
+    linear_solver: Literal["auto", "fourier", "banded", "dense"] = default("accuracy", "linear_solver")
+    """Solver of the linear systems of the implicit steps: ``fourier`` (O1) or ``banded`` (O2) preconditioner,
+    ``dense`` factorisation (O3), or ``auto``."""

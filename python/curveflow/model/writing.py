@@ -1,0 +1,97 @@
+"""Objects as TOML."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import fields
+from typing import Any, TypeVar
+
+import numpy as np
+
+from ..errors import SceneError
+from .density import Density
+from .energy import TERMS, EnergyTerm
+from .table import Table
+
+T = TypeVar("T", bound=Table)
+
+
+def value(key: str, given: object) -> str:
+    """Write the value of a key.
+
+    Raises:
+        TypeError: there is no such value in TOML.
+    """
+    if isinstance(given, np.generic | np.ndarray):
+        given = given.tolist()
+    if isinstance(given, bool | int | str):
+        return json.dumps(given, ensure_ascii=False).replace("\x7f", "\\u007F")
+    if isinstance(given, float):
+        return repr(given)
+    if isinstance(given, list | tuple):
+        return "[" + ", ".join(value(key, item) for item in given) + "]"
+    if isinstance(given, Table):
+        return "{ " + ", ".join(_lines(key, given)) + " }"
+    raise TypeError(f"{key}: {_described(given)} is not a number, text, truth value, table of a scene or list of these")
+
+
+def table(name: str, given: object, *kinds: type[Table]) -> str:
+    """Write a table, of one of the kinds, under its name.
+
+    Raises:
+        TypeError: the object is of another kind.
+    """
+    return "\n".join([f"[{name}]", *_lines(name, _checked(name, given, kinds)), ""])
+
+
+def density_tables(given: Iterable[Density]) -> str:
+    """Write the tables of densities, in order."""
+    densities = _listed("density", given, (Density,))
+    tables = (_lines(f"density.{index}", density) for index, density in enumerate(densities))
+    return "".join("\n".join(["[[density]]", *lines, ""]) for lines in tables)
+
+
+def energy_tables(given: Iterable[EnergyTerm]) -> str:
+    """Write the tables of the terms of the energy, each under its own name.
+
+    Raises:
+        SceneError: two terms are of one kind.
+    """
+    terms = _listed("energy", given, TERMS)
+    for name, count in Counter(term.name for term in terms).items():
+        if count > 1:
+            raise SceneError(
+                f"scene, energy.{name}\n  `energy` has {count} terms `{name}`, but at most 1 of each kind is possible; "
+                "add them up into one, or write one of them as Local(expression)"
+            )
+    return "[energy]\n" + "".join(table(f"energy.{term.name}", term, *TERMS) for term in terms)
+
+
+def _listed(key: str, given: Iterable[T], kinds: tuple[type[T], ...]) -> list[T]:
+    if isinstance(given, Table):
+        raise TypeError(f"{key}: {_described(given)} stands alone; put it into a list, [{_described(given)}(...)]")
+    return [_checked(f"{key}.{index}", table, kinds) for index, table in enumerate(given)]
+
+
+def _checked(key: str, given: object, kinds: tuple[type[T], ...]) -> T:
+    if not isinstance(given, kinds):
+        names = ", ".join(kind.__name__ for kind in kinds)
+        raise TypeError(f"{key}: {_described(given)} is not an object of: {names}")
+    return given
+
+
+def _lines(key: str, given: Table) -> Iterator[str]:
+    """Write the keys of a table; a key without a value is left out."""
+    shape = getattr(given, "shape", None)
+    if shape is not None:
+        yield f"shape = {value(key, shape)}"
+    for field in fields(given):  # type: ignore[arg-type] # every table is a dataclass
+        held: Any = getattr(given, field.name)
+        if held is not None:
+            yield f"{field.name} = {value(f'{key}.{field.name}', held)}"
+
+
+def _described(given: object) -> str:
+    return f"the class {given.__name__}" if isinstance(given, type) else type(given).__name__
