@@ -82,14 +82,16 @@ pub fn costs_table(costs: &[Costs]) -> String {
     text.push_str(" power |\n| --- ");
     text.push_str(&"| ---: ".repeat(costs.len() + 1));
     text.push_str("|\n");
-    let rows: [Row; 8] = [
+    let rows: [Row; 10] = [
         ("right-hand side", |c| c.rate),
         ("linearisation", |c| c.linearisation),
         ("J·v", |c| c.product),
         ("solve, Fourier", |c| c.solve[0]),
         ("solve, banded", |c| c.solve[1]),
+        ("solve, auxiliary", |c| c.solve[2]),
         ("factorisation, Fourier", |c| c.factorisation[0]),
         ("factorisation, banded", |c| c.factorisation[1]),
+        ("factorisation, auxiliary", |c| c.factorisation[2]),
         ("step of BDF, auto, tolerance 1e-5, to t = 0.1", |c| c.step),
     ];
     for (name, part) in rows {

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use curveflow_benches::measure::{Case, Method, Outcome, SIZES, costs};
+use curveflow_benches::measure::{AUXILIARY, Case, Method, Outcome, SIZES, costs};
 use curveflow_benches::report::{case_head, case_line, costs_table, replace_tables};
 
 /// Seconds after which a run is given up, and the tighter tolerances are not tried.
@@ -23,13 +23,13 @@ struct Plan {
     solvers: &'static [&'static str],
 }
 
-const KRYLOV: &[&str] = &["fourier", "banded", "auto"];
+const KRYLOV: &[&str] = &["fourier", "banded", AUXILIARY, "auto"];
 const PLANS: [Plan; 4] = [
     Plan { case: Case { scene: "length_penalty", nodes: 256 }, times: &[0.01], solvers: KRYLOV },
     Plan {
         case: Case { scene: "length_penalty", nodes: 64 },
         times: &[0.01],
-        solvers: &["fourier", "banded", "auto", "dense"],
+        solvers: &["fourier", "banded", AUXILIARY, "auto", "dense"],
     },
     Plan { case: Case { scene: "three_fold", nodes: 512 }, times: &[0.1, 100.0], solvers: KRYLOV },
     Plan { case: Case { scene: "three_fold_sharp", nodes: 1024 }, times: &[0.1, 100.0], solvers: KRYLOV },

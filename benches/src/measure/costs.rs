@@ -7,6 +7,7 @@ use flow_core::run::Setup;
 
 use super::case::Case;
 use super::method::Method;
+use crate::rivals::{AuxiliaryFields, Shared};
 
 /// Numbers of nodes measured.
 pub const SIZES: [usize; 6] = [256, 512, 1024, 2048, 4096, 8192];
@@ -31,10 +32,10 @@ pub struct Costs {
     pub linearisation: f64,
     /// One product of the implicit operator with a vector.
     pub product: f64,
-    /// One solve with the preconditioner: Fourier, banded.
-    pub solve: [f64; 2],
-    /// One factorisation: Fourier, banded.
-    pub factorisation: [f64; 2],
+    /// One solve with the preconditioner: Fourier, banded, auxiliary.
+    pub solve: [f64; 3],
+    /// One factorisation: Fourier, banded, auxiliary (that of Fourier included, for its weights).
+    pub factorisation: [f64; 3],
     /// One accepted step of BDF to t = 0.1, all included.
     pub step: f64,
     /// Accepted steps of that run.
@@ -53,17 +54,21 @@ pub fn costs(nodes: usize) -> Costs {
     let linearisation = seconds(|| membrane.linearise(&state, &mut out));
     let v = out.clone();
     let product = seconds(|| membrane.jacobian_product(&v, &mut out));
-    let mut solve = [0.0; 2];
-    let mut factorisation = [0.0; 2];
-    for (index, solver) in ["fourier", "banded"].into_iter().enumerate() {
-        let Setup { mut membrane, .. } = case.build(solver);
-        membrane.linearise(&state, &mut out);
+    let problems: [Box<dyn Problem>; 3] = [
+        Box::new(case.build("fourier").membrane),
+        Box::new(case.build("banded").membrane),
+        Box::new(AuxiliaryFields::new(Shared::new(case.build("fourier").membrane))),
+    ];
+    let mut solve = [0.0; 3];
+    let mut factorisation = [0.0; 3];
+    for (index, mut problem) in problems.into_iter().enumerate() {
+        problem.linearise(&state, &mut out);
         factorisation[index] = seconds(|| {
-            membrane.factorise(GAMMA);
+            problem.factorise(GAMMA);
         });
         solve[index] = seconds(|| {
             out.copy_from_slice(&v);
-            membrane.precondition(&mut out);
+            problem.precondition(&mut out);
         });
     }
     let run = Method::Bdf.run(case, "auto", TOLERANCE, END, LIMIT);

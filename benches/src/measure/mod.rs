@@ -8,5 +8,5 @@ mod outcome;
 
 pub use case::Case;
 pub use costs::{Costs, SIZES, costs, exponent};
-pub use method::Method;
+pub use method::{AUXILIARY, Method};
 pub use outcome::{Outcome, Unfinished};
