@@ -6,8 +6,8 @@ use flow_core::integrator::Problem;
 use flow_core::run::Setup;
 
 use super::case::Case;
+use super::iterations::SOLVERS;
 use super::method::Method;
-use crate::rivals::{AuxiliaryFields, Shared};
 
 /// Numbers of nodes measured.
 pub const SIZES: [usize; 6] = [256, 512, 1024, 2048, 4096, 8192];
@@ -32,10 +32,10 @@ pub struct Costs {
     pub linearisation: f64,
     /// One product of the implicit operator with a vector.
     pub product: f64,
-    /// One solve with the preconditioner: Fourier, banded, auxiliary.
-    pub solve: [f64; 3],
-    /// One factorisation: Fourier, banded, auxiliary (that of Fourier included, for its weights).
-    pub factorisation: [f64; 3],
+    /// One solve with each preconditioner of [`SOLVERS`].
+    pub solve: [f64; SOLVERS.len()],
+    /// One factorisation of each; that of the auxiliary fields includes the one by Fourier, for its weights of residuals.
+    pub factorisation: [f64; SOLVERS.len()],
     /// One accepted step of BDF to t = 0.1, all included.
     pub step: f64,
     /// Accepted steps of that run.
@@ -47,21 +47,17 @@ pub struct Costs {
 /// Measures the parts on `nodes` nodes.
 #[must_use]
 pub fn costs(nodes: usize) -> Costs {
-    let case = Case { scene: SCENE, nodes };
+    let case = Case { scene: SCENE, nodes, derivative: "fourier" };
     let Setup { mut membrane, state, .. } = case.build("fourier");
     let mut out = vec![0.0; state.len()];
     let rate = seconds(|| membrane.rate(&state, &mut out));
     let linearisation = seconds(|| membrane.linearise(&state, &mut out));
     let v = out.clone();
     let product = seconds(|| membrane.jacobian_product(&v, &mut out));
-    let problems: [Box<dyn Problem>; 3] = [
-        Box::new(case.build("fourier").membrane),
-        Box::new(case.build("banded").membrane),
-        Box::new(AuxiliaryFields::new(Shared::new(case.build("fourier").membrane))),
-    ];
-    let mut solve = [0.0; 3];
-    let mut factorisation = [0.0; 3];
-    for (index, mut problem) in problems.into_iter().enumerate() {
+    let mut solve = [0.0; SOLVERS.len()];
+    let mut factorisation = solve;
+    for (index, solver) in SOLVERS.into_iter().enumerate() {
+        let (mut problem, ..) = case.problem(solver);
         problem.linearise(&state, &mut out);
         factorisation[index] = seconds(|| {
             problem.factorise(GAMMA);
