@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::measure::{Case, Costs, Method, Outcome, SIZES, Unfinished, exponent};
+use crate::measure::{Case, Costs, GAMMAS, Method, Outcome, REDUCTION, SIZES, SOLVERS, Unfinished, exponent};
 
 /// Errors of curvature and length, at an early time if there is one, and at the end.
 pub type Errors = Vec<[f64; 2]>;
@@ -11,7 +11,7 @@ pub type Errors = Vec<[f64; 2]>;
 #[must_use]
 pub fn case_head(case: Case, times: &[f64]) -> String {
     let last = times.last().copied().unwrap_or_default();
-    let mut text = format!("\n### {}, N = {}, to t = {last}\n\n", case.scene, case.nodes);
+    let mut text = format!("\n### {}, to t = {last}\n\n", case_name(case));
     text.push_str(
         "| method | linear solver | tolerance | ms | steps | right-hand sides | Krylov | factorisations \
          | rejected: error, solver, energy |",
@@ -25,6 +25,14 @@ pub fn case_head(case: Case, times: &[f64]) -> String {
     text.push_str(&"| --- ".repeat(times.len()));
     text.push_str("|\n");
     text
+}
+
+fn case_name(case: Case) -> String {
+    let family = match case.derivative {
+        "fourier" => String::new(),
+        family => format!(", {family}"),
+    };
+    format!("{}, N = {}{family}", case.scene, case.nodes)
 }
 
 /// One run as a line.
@@ -82,14 +90,16 @@ pub fn costs_table(costs: &[Costs]) -> String {
     text.push_str(" power |\n| --- ");
     text.push_str(&"| ---: ".repeat(costs.len() + 1));
     text.push_str("|\n");
-    let rows: [Row; 8] = [
+    let rows: [Row; 10] = [
         ("right-hand side", |c| c.rate),
         ("linearisation", |c| c.linearisation),
         ("J·v", |c| c.product),
         ("solve, Fourier", |c| c.solve[0]),
         ("solve, banded", |c| c.solve[1]),
+        ("solve, auxiliary", |c| c.solve[2]),
         ("factorisation, Fourier", |c| c.factorisation[0]),
         ("factorisation, banded", |c| c.factorisation[1]),
+        ("factorisation, auxiliary", |c| c.factorisation[2]),
         ("step of BDF, auto, tolerance 1e-5, to t = 0.1", |c| c.step),
     ];
     for (name, part) in rows {
@@ -105,6 +115,31 @@ pub fn costs_table(costs: &[Costs]) -> String {
         let _ = write!(text, " {} ({:.1}) |", cost.steps, cost.krylov_per_step);
     }
     text.push_str(" |\n");
+    text
+}
+
+/// The table of Krylov iterations of fresh factorisations, for cases with their iterations at `time`.
+#[must_use]
+pub fn iterations_table(cases: &[(Case, Vec<[usize; SOLVERS.len()]>)], time: f64) -> String {
+    let mut text = format!(
+        "\n### Krylov iterations with a fresh factorisation, state at t = {time}, residual to {REDUCTION:.0e}\n\n\
+         | system | linear solver |"
+    );
+    for gamma in GAMMAS {
+        let _ = write!(text, " γ = {gamma:.0e} |");
+    }
+    text.push_str("\n| --- | --- ");
+    text.push_str(&"| ---: ".repeat(GAMMAS.len()));
+    text.push_str("|\n");
+    for (case, counts) in cases {
+        for (index, solver) in SOLVERS.iter().enumerate() {
+            let _ = write!(text, "| {} | {solver} |", case_name(*case));
+            for count in counts {
+                let _ = write!(text, " {} |", count[index]);
+            }
+            text.push('\n');
+        }
+    }
     text
 }
 

@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use curveflow_benches::measure::{Case, Method, Outcome, SIZES, costs};
-use curveflow_benches::report::{case_head, case_line, costs_table, replace_tables};
+use curveflow_benches::measure::{AUXILIARY, Case, Method, Outcome, SIZES, costs, iterations};
+use curveflow_benches::report::{case_head, case_line, costs_table, iterations_table, replace_tables};
 
 /// Seconds after which a run is given up, and the tighter tolerances are not tried.
 const LIMIT: f64 = 8.0;
@@ -23,23 +23,38 @@ struct Plan {
     solvers: &'static [&'static str],
 }
 
-const KRYLOV: &[&str] = &["fourier", "banded", "auto"];
-const PLANS: [Plan; 4] = [
-    Plan { case: Case { scene: "length_penalty", nodes: 256 }, times: &[0.01], solvers: KRYLOV },
+const KRYLOV: &[&str] = &["fourier", "banded", AUXILIARY, "auto"];
+const PLANS: [Plan; 5] = [
+    Plan { case: case("length_penalty", 256), times: &[0.01], solvers: KRYLOV },
     Plan {
-        case: Case { scene: "length_penalty", nodes: 64 },
+        case: case("length_penalty", 64),
         times: &[0.01],
-        solvers: &["fourier", "banded", "auto", "dense"],
+        solvers: &["fourier", "banded", AUXILIARY, "auto", "dense"],
     },
-    Plan { case: Case { scene: "three_fold", nodes: 512 }, times: &[0.1, 100.0], solvers: KRYLOV },
-    Plan { case: Case { scene: "three_fold_sharp", nodes: 1024 }, times: &[0.1, 100.0], solvers: KRYLOV },
+    Plan { case: case("three_fold", 512), times: &[0.1, 100.0], solvers: KRYLOV },
+    Plan { case: central(case("three_fold", 512)), times: &[0.1, 100.0], solvers: KRYLOV },
+    Plan { case: case("three_fold_sharp", 1024), times: &[0.1, 100.0], solvers: KRYLOV },
 ];
+/// When the fronts have formed, and the iterations of single systems are counted.
+const FRONTS: f64 = 0.01;
+
+const fn case(scene: &'static str, nodes: usize) -> Case {
+    Case { scene, nodes, derivative: "fourier" }
+}
+
+/// The family whose operator the band of [`AUXILIARY`] is.
+const fn central(case: Case) -> Case {
+    Case { derivative: "central-2", ..case }
+}
 
 fn main() -> ExitCode {
     let mut tables = String::new();
     for plan in &PLANS {
         tables.push_str(&measure(plan));
     }
+    let sharp = case("three_fold_sharp", 1024);
+    let systems = [sharp, central(sharp)].map(|case| (case, iterations(case, FRONTS)));
+    tables.push_str(&iterations_table(&systems, FRONTS));
     tables.push_str(&costs_table(&SIZES.map(costs)));
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
     let written = std::fs::read_to_string(&path).and_then(|document| {

@@ -6,6 +6,7 @@ use flow_core::integrator::Problem;
 use flow_core::run::Setup;
 
 use super::case::Case;
+use super::iterations::SOLVERS;
 use super::method::Method;
 
 /// Numbers of nodes measured.
@@ -31,10 +32,10 @@ pub struct Costs {
     pub linearisation: f64,
     /// One product of the implicit operator with a vector.
     pub product: f64,
-    /// One solve with the preconditioner: Fourier, banded.
-    pub solve: [f64; 2],
-    /// One factorisation: Fourier, banded.
-    pub factorisation: [f64; 2],
+    /// One solve with each preconditioner of [`SOLVERS`].
+    pub solve: [f64; SOLVERS.len()],
+    /// One factorisation of each; that of the auxiliary fields includes the one by Fourier, for its weights of residuals.
+    pub factorisation: [f64; SOLVERS.len()],
     /// One accepted step of BDF to t = 0.1, all included.
     pub step: f64,
     /// Accepted steps of that run.
@@ -46,24 +47,24 @@ pub struct Costs {
 /// Measures the parts on `nodes` nodes.
 #[must_use]
 pub fn costs(nodes: usize) -> Costs {
-    let case = Case { scene: SCENE, nodes };
+    let case = Case { scene: SCENE, nodes, derivative: "fourier" };
     let Setup { mut membrane, state, .. } = case.build("fourier");
     let mut out = vec![0.0; state.len()];
     let rate = seconds(|| membrane.rate(&state, &mut out));
     let linearisation = seconds(|| membrane.linearise(&state, &mut out));
     let v = out.clone();
     let product = seconds(|| membrane.jacobian_product(&v, &mut out));
-    let mut solve = [0.0; 2];
-    let mut factorisation = [0.0; 2];
-    for (index, solver) in ["fourier", "banded"].into_iter().enumerate() {
-        let Setup { mut membrane, .. } = case.build(solver);
-        membrane.linearise(&state, &mut out);
+    let mut solve = [0.0; SOLVERS.len()];
+    let mut factorisation = solve;
+    for (index, solver) in SOLVERS.into_iter().enumerate() {
+        let (mut problem, ..) = case.problem(solver);
+        problem.linearise(&state, &mut out);
         factorisation[index] = seconds(|| {
-            membrane.factorise(GAMMA);
+            problem.factorise(GAMMA);
         });
         solve[index] = seconds(|| {
             out.copy_from_slice(&v);
-            membrane.precondition(&mut out);
+            problem.precondition(&mut out);
         });
     }
     let run = Method::Bdf.run(case, "auto", TOLERANCE, END, LIMIT);

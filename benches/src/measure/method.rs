@@ -1,7 +1,7 @@
 //! The methods, each built for a case and run by the core's step loop.
 
 use flow_core::integrator::{Bdf, Finish, Problem};
-use flow_core::run::{ENERGY_TOLERANCE_SHARE, Setup};
+use flow_core::run::ENERGY_TOLERANCE_SHARE;
 
 use super::case::Case;
 use super::outcome::{Goal, Outcome, drive};
@@ -42,23 +42,23 @@ impl Method {
         self != Self::Etdrk4
     }
 
-    /// Integrates `case` to `end`, or until `limit` seconds have passed.
+    /// Integrates `case` to `end` with the linear solver `solver` (see [`Case::problem`]), or until `limit` seconds have
+    /// passed.
     ///
     /// # Panics
     /// If the initial state is not finite: the shipped scenes are.
     #[must_use]
     pub fn run(self, case: Case, solver: &str, tolerance: f64, end: f64, limit: f64) -> Outcome {
-        let Setup { mut membrane, mut state, .. } = case.build(solver);
-        let Finish::Good { energy, integral_rates, .. } = membrane.finish(0.0, &mut state) else {
+        let (mut problem, shared, mut state) = case.problem(solver);
+        let Finish::Good { energy, integral_rates, .. } = problem.finish(0.0, &mut state) else {
             panic!("the initial state of `{}` is finite", case.scene);
         };
         let goal = Goal { end, limit, energy, energy_tolerance: ENERGY_TOLERANCE_SHARE * tolerance };
-        let mut problem = Shared::new(membrane);
-        match self.formula(&problem) {
-            None => drive(&mut problem, goal, |problem, counters| {
+        match self.formula(&shared) {
+            None => drive(&mut *problem, goal, |problem, counters| {
                 Bdf::new(problem, &state, integral_rates, tolerance, counters)
             }),
-            Some(formula) => drive(&mut problem, goal, |problem, counters| {
+            Some(formula) => drive(&mut *problem, goal, |problem, counters| {
                 OneStep::new(formula, problem, &state, integral_rates, tolerance, counters)
             }),
         }

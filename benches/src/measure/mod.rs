@@ -3,10 +3,12 @@
 mod case;
 mod clock;
 mod costs;
+mod iterations;
 mod method;
 mod outcome;
 
-pub use case::Case;
+pub use case::{AUXILIARY, Case};
 pub use costs::{Costs, SIZES, costs, exponent};
+pub use iterations::{GAMMAS, REDUCTION, SOLVERS, iterations};
 pub use method::Method;
 pub use outcome::{Outcome, Unfinished};

@@ -38,10 +38,10 @@ pub(super) struct Goal {
 }
 
 /// Runs the stepper that `build` makes, with its building under the clock.
-pub(super) fn drive<P: Problem, S: Stepper>(
-    problem: &mut P,
+pub(super) fn drive<S: Stepper>(
+    problem: &mut dyn Problem,
     goal: Goal,
-    build: impl FnOnce(&mut P, &mut Counters) -> S,
+    build: impl FnOnce(&mut dyn Problem, &mut Counters) -> S,
 ) -> Outcome {
     let clock = Clock::start();
     let mut counters = Counters::default();

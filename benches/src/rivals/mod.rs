@@ -1,5 +1,7 @@
-//! One-step methods for the same problems and behind the same step loop as the core's BDF.
+//! One-step methods for the same problems and behind the same step loop as the core's BDF, and a linear solver that rivals
+//! the core's.
 
+mod auxiliary_fields;
 mod controller;
 mod esdirk;
 mod etdrk4;
@@ -10,6 +12,7 @@ mod shared;
 mod symbol;
 pub mod tableau;
 
+pub use auxiliary_fields::AuxiliaryFields;
 pub use controller::Controller;
 pub use esdirk::Esdirk;
 pub use etdrk4::Etdrk4;
