@@ -20,6 +20,7 @@ mod schedule;
 mod setup;
 mod setup_error;
 mod simulation;
+pub mod tradeoff;
 
 pub use crate::integrator::{Counters, Rejections};
 pub use energy_terms::nodal_lines;
