@@ -25,6 +25,8 @@ pub(super) const GRID: RGBColor = RGBColor(0xE4, 0xE4, 0xE4);
 pub(super) const SKY: RGBColor = RGBColor(0x00, 0x72, 0xB2);
 pub(super) const VERMILION: RGBColor = RGBColor(0xD5, 0x5E, 0x00);
 pub(super) const SEA: RGBColor = RGBColor(0x00, 0x9E, 0x73);
+pub(super) const ORANGE: RGBColor = RGBColor(0xE6, 0x9F, 0x00);
+pub(super) const ROSE: RGBColor = RGBColor(0xCC, 0x79, 0xA7);
 
 /// Result of drawing on the back end `DB`.
 pub(super) type Drawn<DB, T = ()> = Result<T, DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
@@ -90,6 +92,18 @@ impl<DB: DrawingBackend> Page<DB> {
     pub fn text(&self, text: &str, size: f64, [x, y]: [f64; 2], align: HPos) -> Drawn<DB> {
         let style = self.font(size, INK).pos(Pos::new(align, VPos::Center));
         self.root.draw_text(text, &style, (self.px(x), self.px(y) + self.drop(size)))
+    }
+
+    /// The title of the page, cut if it is too long for it.
+    pub fn title(&self, title: &str) -> Drawn<DB> {
+        // Control characters are not allowed in SVG.
+        let mut title: Vec<char> = title.chars().filter(|c| !c.is_control()).collect();
+        let mut text: String = title.iter().collect();
+        while self.width(&text, LARGE)? > SIZE[0] - 80.0 {
+            title.pop();
+            text = title.iter().chain(['…'].iter()).collect();
+        }
+        self.text(&text, LARGE, [0.5 * SIZE[0], 38.0], HPos::Center)
     }
 
     /// A line through `points` of the back end.
