@@ -1,8 +1,6 @@
 //! `curveflow run SCENE`: integrate one scene and write its result file.
 
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use flow_core::output::atomic_file::check_writable;
@@ -14,6 +12,7 @@ use super::scene_args::SceneArgs;
 use crate::error::CliError;
 use crate::print;
 use crate::progress::Reporter;
+use crate::signals::stop_flag;
 
 /// Integrate a scene and write its result file.
 #[derive(Debug, clap::Args)]
@@ -58,17 +57,6 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
         StopReason::Interrupted => Err(CliError::Stopped { time, output }),
         StopReason::Failed(message) => Err(CliError::Numerical { message, output }),
     }
-}
-
-/// Raised by SIGINT and SIGTERM; a second signal ends the process at once.
-fn stop_flag() -> Result<Arc<AtomicBool>, CliError> {
-    let stop = Arc::new(AtomicBool::new(false));
-    for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
-        signal_hook::flag::register_conditional_shutdown(signal, 6, Arc::clone(&stop))
-            .and_then(|_| signal_hook::flag::register(signal, Arc::clone(&stop)))
-            .map_err(CliError::Signals)?;
-    }
-    Ok(stop)
 }
 
 fn closing_line(record: &Record, seconds: f64) -> String {
