@@ -15,6 +15,11 @@ pub(super) const LARGE: f64 = 30.0;
 /// Line height of the font in units of its size; `plotters` counts font sizes so.
 const LINE_HEIGHT: f64 = 1.164;
 
+/// Width of the white around text on lines, and the directions in which the text is drawn for it.
+const HALO: f64 = 2.5;
+const AROUND: [[f64; 2]; 8] =
+    [[1.0, 0.0], [0.7, 0.7], [0.0, 1.0], [-0.7, 0.7], [-1.0, 0.0], [-0.7, -0.7], [0.0, -1.0], [0.7, -0.7]];
+
 /// Axes and text.
 pub(super) const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
 /// The initial state.
@@ -92,6 +97,16 @@ impl<DB: DrawingBackend> Page<DB> {
     pub fn text(&self, text: &str, size: f64, [x, y]: [f64; 2], align: HPos) -> Drawn<DB> {
         let style = self.font(size, INK).pos(Pos::new(align, VPos::Center));
         self.root.draw_text(text, &style, (self.px(x), self.px(y) + self.drop(size)))
+    }
+
+    /// Text as [`text`](Self::text) writes it, legible on top of lines.
+    pub fn text_on_lines(&self, text: &str, size: f64, [x, y]: [f64; 2], align: HPos) -> Drawn<DB> {
+        let style = self.font(size, WHITE).pos(Pos::new(align, VPos::Center));
+        for [right, down] in AROUND {
+            let at = (self.px(x + HALO * right), self.px(y + HALO * down) + self.drop(size));
+            self.root.draw_text(text, &style, at)?;
+        }
+        self.text(text, size, [x, y], align)
     }
 
     /// The title of the page, cut if it is too long for it.

@@ -52,15 +52,26 @@ impl Panel {
     pub fn new<DB: DrawingBackend>(
         page: &Page<DB>,
         frame: Rect,
+        x: Named<'_>,
+        y: Named<'_>,
+    ) -> Drawn<DB, Self> {
+        Self::with_room(page, frame, LEFT, x, y)
+    }
+
+    /// As [`new`](Self::new), with so much room to the left of the frame.
+    pub fn with_room<DB: DrawingBackend>(
+        page: &Page<DB>,
+        frame: Rect,
+        room: f64,
         (x, x_name): Named<'_>,
         (y, y_name): Named<'_>,
     ) -> Drawn<DB, Self> {
         let area = page.root.clone().shrink(
-            (page.px(frame.left - LEFT), page.px(frame.top)),
-            (page.px(frame.width() + LEFT), page.px(frame.height() + BELOW)),
+            (page.px(frame.left - room), page.px(frame.top)),
+            (page.px(frame.width() + room), page.px(frame.height() + BELOW)),
         );
         let mut chart = ChartBuilder::on(&area)
-            .set_label_area_size(LabelAreaPosition::Left, page.px(LEFT))
+            .set_label_area_size(LabelAreaPosition::Left, page.px(room))
             .set_label_area_size(LabelAreaPosition::Bottom, page.px(BELOW))
             .build_cartesian_2d(x, y)?;
         let pixels = chart.plotting_area().get_pixel_range();
@@ -146,7 +157,7 @@ impl Panel {
         }
         let (x, y) = self.pixel(place);
         let at = [f64::from(x) / page.scale + 0.4 * SMALL, f64::from(y) / page.scale - 0.6 * SMALL];
-        page.text(text, SMALL, at, HPos::Left)
+        page.text_on_lines(text, SMALL, at, HPos::Left)
     }
 
     /// Pixel of the back end for a place in the unit square.

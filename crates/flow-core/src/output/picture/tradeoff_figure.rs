@@ -15,8 +15,13 @@ use crate::run::tradeoff::{Ending, Rung, Tradeoff};
 
 const WIDTH: f64 = 3.5;
 const DOT: f64 = 6.0;
+/// Left of the frames: their labels are as wide as 10⁻¹⁰.
+const ROOM: f64 = 100.0;
 /// Room on the axis of times beside the outermost runs, for their labels.
 const MARGIN: f64 = 0.16;
+/// Least decades on the axes: of times, so that two of 1, 2 and 5 are labelled; of errors, so that two powers of ten are.
+const LEAST_TIMES: f64 = 0.7;
+const LEAST_ERRORS: f64 = 2.5;
 /// The reference tells nothing about errors below this part of its tolerance.
 const RESOLVED: f64 = 0.1;
 
@@ -75,14 +80,19 @@ impl<'a> Figure<'a> {
     fn errors(&self) -> Axis {
         let all = self.series.iter().flat_map(|series| series.errors.iter().flatten().copied());
         let resolved = RESOLVED * self.tradeoff.reference.tolerance;
-        logarithmic(all.filter(|error| *error > 0.0).map(move |error| error.max(resolved)), 0.06)
+        logarithmic(
+            all.filter(|error| *error > 0.0).map(move |error| error.max(resolved)),
+            0.06,
+            LEAST_ERRORS,
+        )
     }
 
     /// One panel: `at` is 0 halfway, 1 at the end.
     fn panel<DB: DrawingBackend>(&self, page: &Page<DB>, frame: Rect, at: usize, caption: &str) -> Drawn<DB> {
-        let x = logarithmic(self.times.iter().copied().filter(|time| *time > 0.0), MARGIN);
+        let x = logarithmic(self.times.iter().copied().filter(|time| *time > 0.0), MARGIN, LEAST_TIMES);
         let name = format!("time of integration  [{}]", self.unit);
-        let panel = Panel::new(page, frame, (x, &name), (self.errors(), "relative error"))?;
+        let y = (self.errors(), "relative error");
+        let panel = Panel::with_room(page, frame, ROOM, (x, &name), y)?;
         for series in &self.series {
             let points = || self.times.iter().zip(&series.errors[at]).map(|(time, error)| [*time, *error]);
             panel.line(page, points(), series.pen)?;
@@ -103,7 +113,10 @@ impl Draw for Figure<'_> {
         page.title(title)?;
         let left = Rect { left: 112.0, top: 156.0, right: 766.0, bottom: 770.0 };
         let right = Rect { left: 886.0, right: 1540.0, ..left };
-        let entries: Vec<(Pen, &str)> = self.series.iter().map(|series| (series.pen, series.name)).collect();
+        // What the flow keeps to the last digit has no line.
+        let drawn =
+            self.series.iter().filter(|series| series.errors.iter().flatten().any(|error| *error > 0.0));
+        let entries: Vec<(Pen, &str)> = drawn.map(|series| (series.pen, series.name)).collect();
         page.legend([left.left, 92.0], &entries)?;
         let halfway = format!("half of the energy lost, t = {}", number(span.halfway));
         let end = match span.ending {
@@ -138,9 +151,9 @@ fn pen(series: usize, densities: usize) -> Pen {
     }
 }
 
-/// A logarithmic axis around positive values, with `margin` of its length beside them on both sides.
-fn logarithmic(values: impl Iterator<Item = f64>, margin: f64) -> Axis {
+/// A logarithmic axis around positive values, with `margin` of its length beside them on both sides, over `least` decades at least.
+fn logarithmic(values: impl Iterator<Item = f64>, margin: f64, least: f64) -> Axis {
     let (low, high) = range(values.map(f64::log10));
-    let pad = margin * (high - low).max(0.3);
+    let pad = (margin * (high - low)).max(0.5 * (least - (high - low)));
     Axis::logarithmic(10_f64.powf(low - pad), 10_f64.powf(high + pad))
 }

@@ -33,8 +33,8 @@ impl Errors {
             curve: distances.into_iter().fold(0.0, larger) / reference.length,
             curvature: l2(&frame.curvature, &reference.curvature),
             densities: densities.map(|(values, exact)| l2(values, exact)).collect(),
-            energy: (frame.energy - reference.energy).abs() / energy_scale(initial_energy, reference.energy),
-            length: (frame.length / reference.length - 1.0).abs(),
+            energy: relative(frame.energy - reference.energy, energy_scale(initial_energy, reference.energy)),
+            length: relative(frame.length - reference.length, reference.length),
         }
     }
 
@@ -60,13 +60,18 @@ pub(super) fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || a > b { a } else { b }
 }
 
-/// ‖a − b‖/‖b‖ with the weights of the quadrature; ‖a‖ where b is zero.
+/// The size of a difference in units of `scale`; itself where that is zero.
+fn relative(difference: f64, scale: f64) -> f64 {
+    if scale == 0.0 { difference.abs() } else { (difference / scale).abs() }
+}
+
+/// ‖a − b‖/‖b‖ in L²(dσ), `weight` being the metric.
 fn relative_l2(values: &[f64], exact: &[f64], weight: &[f64]) -> f64 {
     let norm = |value: &dyn Fn(usize) -> f64| -> f64 {
-        weight.iter().enumerate().map(|(i, weight)| weight * value(i).powi(2)).sum::<f64>().sqrt()
+        let squares = weight.iter().enumerate().map(|(i, weight)| weight * value(i).powi(2));
+        (squares.sum::<f64>() / weight.len() as f64).sqrt()
     };
-    let (difference, size) = (norm(&|i| values[i] - exact[i]), norm(&|i| exact[i]));
-    if size == 0.0 { difference } else { difference / size }
+    relative(norm(&|i| values[i] - exact[i]), norm(&|i| exact[i]))
 }
 
 #[cfg(test)]
@@ -100,6 +105,16 @@ mod tests {
             assert!((errors.densities[0] - exact).abs() < 1e-13, "{errors:?}");
             assert_eq!(errors.largest(), errors.densities[0]);
         }
+    }
+
+    #[test]
+    fn what_is_zero_has_an_absolute_error() {
+        let empty =
+            |density: f64| Frame { energy: 0.0, density: vec![vec![density; 32]], ..circle(32, 1.0, 0.0) };
+        assert_eq!(Errors::of(&empty(0.0), &empty(0.0), 0.0).energy, 0.0);
+        let errors = Errors::of(&empty(1e-3), &empty(0.0), 0.0);
+        // In L²(dσ) of a curve of length 2π.
+        assert!((errors.densities[0] - 1e-3 * TAU.sqrt()).abs() < 1e-15, "{errors:?}");
     }
 
     #[test]

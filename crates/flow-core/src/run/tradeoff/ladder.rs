@@ -96,11 +96,14 @@ impl Ladder {
 
     /// Tolerance of the reference, and whether rounding keeps it from being tighter.
     pub(super) fn reference(&self) -> (f64, bool) {
-        let wanted = self.tightest() / REFERENCE;
-        // Decimal tolerances are not exact: a hundredth of 1e-9 may be below 1e-11 by a rounding.
-        let floor = wanted < TIGHTEST * (1.0 - 1e-9);
-        (wanted.max(TIGHTEST), floor)
+        let wanted = decimal(self.tightest() / REFERENCE);
+        (wanted.max(TIGHTEST), wanted < TIGHTEST)
     }
+}
+
+/// The value without the rounding of a quotient: 1e-7, not 1.0000000000000001e-7.
+fn decimal(value: f64) -> f64 {
+    format!("{value:.12e}").parse().expect("a number as text is a number")
 }
 
 #[cfg(test)]
@@ -125,9 +128,10 @@ mod tests {
     #[test]
     fn the_reference_is_tighter_than_every_rung() {
         assert_eq!(Ladder::default().reference(), (1e-10, false));
-        for (tightest, tolerance, floor) in [(1e-9, 1e-11, false), (1e-10, 1e-11, true)] {
+        for (tightest, tolerance, floor) in [(3e-5, 3e-7, false), (1e-9, 1e-11, false), (1e-10, 1e-11, true)]
+        {
             let (found, at_floor) = Ladder::new(&[1e-2, tightest], None).unwrap().reference();
-            assert!((found / tolerance - 1.0).abs() < 1e-9 && at_floor == floor, "{found}");
+            assert_eq!((found, at_floor), (tolerance, floor));
         }
     }
 }
