@@ -2,7 +2,11 @@
 #![allow(clippy::unwrap_used)] // a failed test may panic
 
 use std::fs;
+#[cfg(unix)]
+use std::io::{BufRead, BufReader};
 use std::path::PathBuf;
+#[cfg(unix)]
+use std::process::Stdio;
 use std::process::{Command, Output};
 
 use serde_json::Value;
@@ -114,4 +118,28 @@ fn scenes_and_runs_that_fail_have_their_exit_codes() {
     assert_eq!(output.status.code(), Some(4));
     assert!(error.contains("no run has an error of 1e-9 or less"), "{error}");
     assert_eq!(stdout(&output).lines().count(), 2);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_signal_keeps_the_runs_that_are_complete() {
+    let folder = Folder::new("signal");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_curveflow"))
+        .args(["tradeoff", "three_fold_sharp", "--tolerances", "1e-2,1e-9"])
+        .current_dir(&folder.0)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut talk = BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap);
+    assert!(talk.any(|line| line.starts_with("run 2 of 2")));
+    let interrupted = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(interrupted.success());
+    let last = talk.last().unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(6), "{last}");
+    assert_eq!(last, "error: stopped by a signal after 1 of the runs; try fewer tolerances, or looser ones");
+    let table = stdout(&output);
+    assert!(table.lines().nth(2).unwrap().contains("interrupted before the run was complete"), "{table}");
+    assert_eq!(folder.files(), ["three_fold_sharp_tradeoff.png"]);
 }
