@@ -52,13 +52,13 @@ def run(
     Raises:
         SetupError: the scene makes no initial state.
     """
-    line = _Line() if progress else None
+    line = Line() if progress else None
     watch, interval = None, 0.0
     if callback is not None:
         watch = _both(callback, line) if line else callback
     elif line:
         watch, interval = line.show, 0.1
-    native = _with_progress(watch) if watch else None
+    native = with_progress(watch) if watch else None
     try:
         result = Result(_curveflow.run(scene._native, native, interval), scene)
     except BaseException:
@@ -70,14 +70,16 @@ def run(
     return result
 
 
-def _with_progress(watch: Callable[[Progress], object]) -> Callable[..., None]:
+def with_progress(watch: Callable[[Progress], object]) -> Callable[..., None]:
+    """Turn a callback for :class:`Progress` into one for its fields."""
+
     def call(*values: Any) -> None:
         watch(Progress(*values))
 
     return call
 
 
-def _both(callback: Callable[[Progress], object], line: _Line) -> Callable[[Progress], object]:
+def _both(callback: Callable[[Progress], object], line: Line) -> Callable[[Progress], object]:
     def watch(progress: Progress) -> None:
         line.show(progress)
         callback(progress)
@@ -85,20 +87,21 @@ def _both(callback: Callable[[Progress], object], line: _Line) -> Callable[[Prog
     return watch
 
 
-class _Line:
+class Line:
     """The line that shows the progress."""
 
     def __init__(self) -> None:
         self.rewrites = sys.stderr.isatty()
         self.interval = 0.1 if self.rewrites else 30.0
         self.shown = time.monotonic()
+        self.head = ""
 
     def show(self, progress: Progress) -> None:
         now = time.monotonic()
         if now - self.shown >= self.interval:
             self.shown = now
             self.write(
-                f"t = {progress.time:.4g} of at most {progress.end:.4g}, step {progress.steps}, "
+                f"{self.head}t = {progress.time:.4g} of at most {progress.end:.4g}, step {progress.steps}, "
                 f"energy {progress.energy:.6g}, dissipation {progress.dissipation:.2e}"
             )
 

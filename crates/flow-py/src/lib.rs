@@ -10,6 +10,7 @@ mod error;
 mod record;
 mod scene;
 mod system;
+mod tradeoff;
 mod watcher;
 
 /// The extension module.
@@ -21,4 +22,6 @@ mod _curveflow {
     use super::scene::{Scene, shipped};
     #[pymodule_export]
     use super::system::System;
+    #[pymodule_export]
+    use super::tradeoff::{Tradeoff, tradeoff};
 }
