@@ -8,7 +8,16 @@ True
 
 from importlib.metadata import version as _version
 
-from .errors import BugError, CurveflowError, SceneError, SetupError, StorageError
+from .errors import (
+    BugError,
+    CurveflowError,
+    LadderError,
+    SceneError,
+    SetupError,
+    StorageError,
+    TradeoffError,
+)
+from .ladder import Reference, Setting, Tradeoff, tradeoff
 from .model import (
     Accuracy,
     Adhesion,
@@ -53,6 +62,7 @@ __all__ = [
     "Ellipse",
     "FigureEight",
     "Flow",
+    "LadderError",
     "Length",
     "Local",
     "Membrane",
@@ -62,10 +72,12 @@ __all__ = [
     "Points",
     "Polar",
     "Progress",
+    "Reference",
     "Regularization",
     "Result",
     "Scene",
     "SceneError",
+    "Setting",
     "SetupError",
     "Simulation",
     "State",
@@ -73,11 +85,14 @@ __all__ = [
     "Switch",
     "System",
     "Time",
+    "Tradeoff",
+    "TradeoffError",
     "Trillium",
     "open",
     "run",
     "scenes",
     "schema",
+    "tradeoff",
 ]
 
 __version__ = _version("curveflow")

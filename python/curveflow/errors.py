@@ -16,6 +16,14 @@ class SetupError(SceneError):
     """A scene reads well, but its curve, densities and energy make no initial state."""
 
 
+class LadderError(CurveflowError, ValueError):
+    """A list of tolerances, or a number of nodes of the reference, is out of range."""
+
+
+class TradeoffError(CurveflowError, RuntimeError):
+    """A ladder of tolerances has nothing to be measured against: the scene itself or the reference failed."""
+
+
 class StorageError(CurveflowError, OSError):
     """A file cannot be written, or is not a readable result file. A failed write leaves the target as it was."""
 

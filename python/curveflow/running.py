@@ -56,7 +56,7 @@ def run(
     with watching(progress, callback) as (watch, interval):
         result = Result(_curveflow.run(scene._native, watch, interval), scene)
     if progress:
-        _Line().end(f"{result.message} (t = {result.time[-1]:.6g}, {result.stats['steps']} steps)")
+        Line().end(f"{result.message} (t = {result.time[-1]:.6g}, {result.stats['steps']} steps)")
     return result
 
 
@@ -65,27 +65,29 @@ def watching(
     progress: bool, callback: Callable[[Progress], object] | None
 ) -> Iterator[tuple[Callable[..., None] | None, float]]:
     """What the extension calls during a run, and how often; takes the line of progress away afterwards."""
-    line = _Line() if progress else None
+    line = Line() if progress else None
     watch, interval = None, 0.0
     if callback is not None:
         watch = _both(callback, line) if line else callback
     elif line:
         watch, interval = line.show, 0.1
     try:
-        yield (_with_progress(watch) if watch else None), interval
+        yield (with_progress(watch) if watch else None), interval
     finally:
         if line:
             line.end("")
 
 
-def _with_progress(watch: Callable[[Progress], object]) -> Callable[..., None]:
+def with_progress(watch: Callable[[Progress], object]) -> Callable[..., None]:
+    """Turn a callback for :class:`Progress` into one for its fields."""
+
     def call(*values: Any) -> None:
         watch(Progress(*values))
 
     return call
 
 
-def _both(callback: Callable[[Progress], object], line: _Line) -> Callable[[Progress], object]:
+def _both(callback: Callable[[Progress], object], line: Line) -> Callable[[Progress], object]:
     def watch(progress: Progress) -> None:
         line.show(progress)
         callback(progress)
@@ -93,20 +95,21 @@ def _both(callback: Callable[[Progress], object], line: _Line) -> Callable[[Prog
     return watch
 
 
-class _Line:
+class Line:
     """The line that shows the progress."""
 
     def __init__(self) -> None:
         self.rewrites = sys.stderr.isatty()
         self.interval = 0.1 if self.rewrites else 30.0
         self.shown = time.monotonic()
+        self.head = ""
 
     def show(self, progress: Progress) -> None:
         now = time.monotonic()
         if now - self.shown >= self.interval:
             self.shown = now
             self.write(
-                f"t = {progress.time:.4g} of at most {progress.end:.4g}, step {progress.steps}, "
+                f"{self.head}t = {progress.time:.4g} of at most {progress.end:.4g}, step {progress.steps}, "
                 f"energy {progress.energy:.6g}, dissipation {progress.dissipation:.2e}"
             )
 

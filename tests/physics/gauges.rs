@@ -4,30 +4,8 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use curveflow_tests::{crossings, largest_rise, last, middle, run, shipped};
-use flow_core::geometry::{Complex64, Grading, PeriodicGrid};
-use flow_core::run::{Frame, Record, StopReason};
-
-/// The trigonometric interpolant of periodic nodal values.
-struct Interpolant {
-    grid: PeriodicGrid,
-    spectrum: Vec<Complex64>,
-}
-
-impl Interpolant {
-    fn new(values: &[f64]) -> Self {
-        let mut grid = PeriodicGrid::new(values.len());
-        let mut spectrum = vec![Complex64::default(); grid.modes()];
-        grid.transform(values, &mut spectrum);
-        Self { grid, spectrum }
-    }
-
-    fn at(&self, s: f64) -> f64 {
-        let term = |(mode, value): (usize, &Complex64)| {
-            (value * Complex64::cis(self.grid.wave_number(mode) * s)).re * self.grid.multiplicity(mode)
-        };
-        self.spectrum.iter().enumerate().map(term).sum()
-    }
-}
+use flow_core::geometry::Grading;
+use flow_core::run::{Frame, Interpolant, Record, StopReason};
 
 /// The grading e^{a cos(2π·lobes·s)} as a formula and on nodes.
 fn grading(lobes: u32, nodes: usize) -> (String, Grading) {
@@ -185,8 +163,8 @@ fn crowded(frame: &Frame, height: f64, width: f64, harmonics: usize) -> String {
         })
         .collect();
     let series = Interpolant::new(&weight);
-    let mut text = format!("{:.12}", series.spectrum[0].re);
-    for (mode, value) in series.spectrum.iter().enumerate().take(harmonics + 1).skip(1) {
+    let mut text = format!("{:.12}", series.spectrum()[0].re);
+    for (mode, value) in series.spectrum().iter().enumerate().take(harmonics + 1).skip(1) {
         let (amplitude, phase) = (2.0 * value.norm(), value.arg());
         write!(text, " + {amplitude:.12}*cos({mode}*2*pi*s + ({phase:.12}))").expect("room");
     }

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use flow_core::output::StorageError;
 use flow_core::output::picture::PictureError;
+use flow_core::run::tradeoff::TradeoffError;
 
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
@@ -19,6 +20,18 @@ pub enum CliError {
     /// The integration failed; the last good state is in the output.
     #[error("{message}; the last good state is in {}", .output.display())]
     Numerical { message: String, output: PathBuf },
+    /// A ladder of tolerances has nothing to be measured against.
+    #[error(transparent)]
+    Unmeasured(TradeoffError),
+    /// No run of a ladder reached its end.
+    #[error("every run of the ladder failed, each as the table says; try other tolerances")]
+    AllFailed,
+    /// No run of a ladder is as good as asked.
+    #[error(
+        "no run has an error of {asked:e} or less: the smallest is {least:.1e}, at tolerance {tolerance:e}; add tighter \
+         tolerances, or, if tolerances do not help, nodes"
+    )]
+    NotReached { asked: f64, least: f64, tolerance: f64 },
     /// A file could not be written, or not be read at all.
     #[error(transparent)]
     Storage(StorageError),
@@ -40,6 +53,9 @@ pub enum CliError {
          `curveflow resume`, or start anew with --replace", .output.display()
     )]
     OtherScene { output: PathBuf },
+    /// A signal stopped a ladder.
+    #[error("stopped by a signal after {measured} of the runs; try fewer tolerances, or looser ones")]
+    LadderStopped { measured: usize },
     /// The file to be read is not ours, or damaged.
     #[error(transparent)]
     Unreadable(StorageError),
@@ -48,6 +64,19 @@ pub enum CliError {
 impl From<StorageError> for CliError {
     fn from(error: StorageError) -> Self {
         if error.is_unreadable_file() { Self::Unreadable(error) } else { Self::Storage(error) }
+    }
+}
+
+impl From<TradeoffError> for CliError {
+    fn from(error: TradeoffError) -> Self {
+        match error {
+            TradeoffError::Setup(error) => Self::InvalidScene { source: Box::new(error) },
+            TradeoffError::FewerNodes { .. } | TradeoffError::TooManyNodes { .. } => {
+                Self::Usage { message: error.to_string() }
+            }
+            TradeoffError::Interrupted => Self::LadderStopped { measured: 0 },
+            other => Self::Unmeasured(other),
+        }
     }
 }
 

@@ -4,6 +4,7 @@ mod commands;
 mod error;
 mod print;
 mod progress;
+mod signals;
 
 use std::error::Error;
 use std::fmt::Write;
@@ -12,7 +13,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use commands::{check, info, plot, resume, run, scenes, schema};
+use commands::{check, info, plot, resume, run, scenes, schema, tradeoff};
 use error::CliError;
 
 /// Gradient flows of energies of closed planar curves that carry embedded densities.
@@ -30,6 +31,7 @@ enum Command {
     Check(check::Args),
     Info(info::Args),
     Plot(plot::Args),
+    Tradeoff(tradeoff::Args),
     Scenes(scenes::Args),
     Schema(schema::Args),
 }
@@ -42,6 +44,7 @@ impl Command {
             Self::Check(args) => check::execute(args),
             Self::Info(args) => info::execute(args),
             Self::Plot(args) => plot::execute(args),
+            Self::Tradeoff(args) => tradeoff::execute(args),
             Self::Scenes(args) => scenes::execute(args),
             Self::Schema(args) => schema::execute(args),
         }
@@ -69,9 +72,12 @@ fn exit_code(error: &CliError) -> u8 {
     match error {
         CliError::Usage { .. } => 2,
         CliError::InvalidScene { .. } => 3,
-        CliError::Numerical { .. } => 4,
+        CliError::Numerical { .. }
+        | CliError::Unmeasured(_)
+        | CliError::AllFailed
+        | CliError::NotReached { .. } => 4,
         CliError::Storage(_) | CliError::Stdout(_) | CliError::Signals(_) => 5,
-        CliError::Stopped { .. } => 6,
+        CliError::Stopped { .. } | CliError::LadderStopped { .. } => 6,
         CliError::Unreadable(_) | CliError::OtherScene { .. } => 7,
     }
 }

@@ -2,6 +2,8 @@
 
 use std::io::{self, ErrorKind, Write};
 
+use serde_json::{Value, json};
+
 use crate::error::CliError;
 
 /// Prints data. A reader that has gone (`… | head`) is no error.
@@ -16,4 +18,9 @@ pub fn data(text: &str) -> Result<(), CliError> {
 /// Says something; nobody need listen.
 pub fn talk(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");
+}
+
+/// A number for JSON, or the name of what is none: JSON has neither NaN nor infinity.
+pub fn number(value: f64) -> Value {
+    if value.is_finite() { json!(value) } else { json!(value.to_string()) }
 }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+use flow_core::run::tradeoff::{LadderObserver, Leg};
 use flow_core::run::{Observer, Progress};
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -72,5 +73,25 @@ impl Observer for Reporter {
         let over =
             self.stop.load(Ordering::Relaxed) || self.limit.is_some_and(|limit| Instant::now() >= limit);
         if over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+impl LadderObserver for Reporter {
+    fn before_run(&mut self, leg: &Leg) {
+        let message = match leg {
+            Leg::Scout { tolerance } => format!("the scene itself, at tolerance {tolerance:e}"),
+            Leg::Reference { tolerance, nodes } => {
+                format!("the reference, at tolerance {tolerance:e} with {nodes} nodes")
+            }
+            Leg::Rung { tolerance, number, count } => {
+                format!("run {number} of {count}, at tolerance {tolerance:e}")
+            }
+            _ => return,
+        };
+        match (&self.line, self.interval) {
+            (Some(line), _) => line.println(message),
+            (None, Some(_)) => print::talk(&message),
+            (None, None) => {}
+        }
     }
 }

@@ -7,7 +7,8 @@ mod synthetic;
 use std::fs;
 use std::path::PathBuf;
 
-use flow_core::output::picture::{NodalLines, Options, PictureError, plot};
+use flow_core::output::picture::{NodalLines, Options, PictureError, check_name, plot, plot_tradeoff};
+use flow_core::run::tradeoff::{Ending, Errors, Reference, Row, RunError, Rung, Span, Tradeoff};
 use flow_core::run::{Record, StepLog};
 
 /// Draws `record` as SVG and PNG; returns the SVG. The files stay if `CURVEFLOW_KEEP_FIGURES` names a folder.
@@ -95,6 +96,71 @@ fn a_figure_needs_a_state_and_a_known_format() {
         let options = Options { width, ..Options::default() };
         assert!(matches!(plot(&record, &path, &options), Err(PictureError::Size { .. })));
     }
+    assert!(matches!(check_name(&nowhere), Err(PictureError::Format { .. })));
+    assert!(check_name(&path).is_ok());
     record.frames.clear();
     assert!(matches!(plot(&record, &path, &Options::default()), Err(PictureError::NoFrames)));
+}
+
+/// A ladder of decades whose errors are near the tolerance, with runs of `seconds` and more.
+fn ladder(densities: &[&str], seconds: f64) -> Tradeoff {
+    let rung = |k: i32| {
+        let tolerance = 10_f64.powi(-k);
+        let errors = |part: f64| Errors {
+            curve: 0.1 * part * tolerance,
+            curvature: part * tolerance,
+            densities: densities.iter().map(|_| 0.5 * part * tolerance).collect(),
+            energy: 0.02 * part * tolerance,
+            length: 0.0,
+        };
+        let steps = 20 * k as u64;
+        let rung =
+            Rung { nodes: 512, steps, seconds: seconds * f64::from(k), errors: [errors(1.0), errors(0.01)] };
+        Row { tolerance, outcome: Ok(rung) }
+    };
+    Tradeoff {
+        title: "Three-fold protein membrane".to_owned(),
+        densities: densities.iter().map(|&name| name.to_owned()).collect(),
+        span: Span { halfway: 2e-5, end: 9.15, ending: Ending::Equilibrium },
+        reference: Reference { tolerance: 1e-10, at_rounding: false, nodes: 1024, steps: 500, seconds: 9.0 },
+        rows: (2..9).map(rung).collect(),
+    }
+}
+
+/// Draws `ladder` as SVG; returns it.
+fn draw_ladder(ladder: &Tradeoff, name: &str) -> String {
+    let path = std::env::temp_dir().join(format!("curveflow-{name}-{}.svg", std::process::id()));
+    plot_tradeoff(ladder, &path, &Options { replace: true, ..Options::default() }).unwrap();
+    let svg = fs::read_to_string(&path).unwrap();
+    fs::remove_file(&path).unwrap();
+    svg
+}
+
+#[test]
+fn ladders_are_drawn_with_their_tolerances() {
+    let svg = draw_ladder(&ladder(&["protein"], 0.01), "ladder");
+    assert_inside(&svg);
+    let texts = ["protein", "curvature", "10⁻²", "10⁻⁸", "[ms]", "at rest, t = 9.15", "time and space"];
+    for text in texts {
+        assert!(svg.contains(text), "{text}");
+    }
+    for (seconds, unit) in [(1e-6, "[µs]"), (1.0, "[s]")] {
+        assert!(draw_ladder(&ladder(&[], seconds), "unit").contains(unit));
+    }
+}
+
+#[test]
+fn odd_ladders_are_drawn() {
+    let mut odd = ladder(&["a", "b", "c"], 0.0);
+    odd.rows[1].outcome = Err(RunError::Interrupted);
+    if let Ok(rung) = &mut odd.rows[0].outcome {
+        rung.errors[0].curvature = f64::NAN;
+        rung.errors[1].energy = f64::INFINITY;
+    }
+    assert_inside(&draw_ladder(&odd, "odd-ladder"));
+    odd.rows.truncate(1);
+    assert_inside(&draw_ladder(&odd, "one-rung"));
+    odd.rows.clear();
+    let path = std::env::temp_dir().join("curveflow-nothing.svg");
+    assert!(matches!(plot_tradeoff(&odd, &path, &Options::default()), Err(PictureError::NoRungs)));
 }

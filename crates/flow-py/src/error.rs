@@ -5,25 +5,48 @@ use std::fmt::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use flow_core::output::StorageError;
+use flow_core::run::tradeoff::{LadderError, TradeoffError};
 use flow_core::run::{SceneError, SetupError};
 use pyo3::prelude::*;
 
 /// An error with a class of its own in `curveflow.errors`.
 pub trait PythonError: Error + Send {
     /// Name of the class.
-    const CLASS: &'static str;
+    fn class(&self) -> &'static str;
 }
 
 impl PythonError for SceneError {
-    const CLASS: &'static str = "SceneError";
+    fn class(&self) -> &'static str {
+        "SceneError"
+    }
 }
 
 impl PythonError for SetupError {
-    const CLASS: &'static str = "SetupError";
+    fn class(&self) -> &'static str {
+        "SetupError"
+    }
 }
 
 impl PythonError for StorageError {
-    const CLASS: &'static str = "StorageError";
+    fn class(&self) -> &'static str {
+        "StorageError"
+    }
+}
+
+impl PythonError for LadderError {
+    fn class(&self) -> &'static str {
+        "LadderError"
+    }
+}
+
+impl PythonError for TradeoffError {
+    fn class(&self) -> &'static str {
+        match self {
+            Self::Setup(error) => error.class(),
+            Self::FewerNodes { .. } | Self::TooManyNodes { .. } => "LadderError",
+            _ => "TradeoffError",
+        }
+    }
 }
 
 /// Runs `call` without the interpreter lock and turns its error, or its panic, into an exception.
@@ -33,12 +56,17 @@ pub fn detached<T: Send, E: PythonError>(
 ) -> PyResult<T> {
     match py.detach(|| catch_unwind(AssertUnwindSafe(call))) {
         Ok(Ok(value)) => Ok(value),
-        Ok(Err(error)) => Err(exception(py, E::CLASS, &message(&error))),
+        Ok(Err(error)) => Err(raised(py, &error)),
         Err(_) => {
             let text = "a bug in Curveflow: please report the lines above and the scene";
             Err(exception(py, "BugError", text))
         }
     }
+}
+
+/// The exception of an error.
+pub fn raised(py: Python<'_>, error: &impl PythonError) -> PyErr {
+    exception(py, error.class(), &message(error))
 }
 
 /// The error and everything that caused it, one line each, as the command line prints it.

@@ -11,6 +11,7 @@ mod record;
 mod scene;
 mod simulation;
 mod system;
+mod tradeoff;
 mod watcher;
 
 /// The extension module.
@@ -24,4 +25,6 @@ mod _curveflow {
     use super::simulation::Simulation;
     #[pymodule_export]
     use super::system::System;
+    #[pymodule_export]
+    use super::tradeoff::{Tradeoff, tradeoff};
 }

@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
+use flow_core::run::tradeoff::{LadderObserver, Leg};
 use flow_core::run::{Observer, Progress};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyStopIteration};
 use pyo3::prelude::*;
@@ -44,13 +45,7 @@ impl Observer for Watcher {
         if !call && now.duration_since(self.checked) < BETWEEN_SIGNALS {
             return ControlFlow::Continue(());
         }
-        let looked = Python::attach(|py| {
-            self.look(py, progress, call).map_err(|error| {
-                let stop = error.is_instance_of::<PyKeyboardInterrupt>(py)
-                    || error.is_instance_of::<PyStopIteration>(py);
-                (!stop).then_some(error)
-            })
-        });
+        let looked = Python::attach(|py| self.look(py, progress, call).map_err(|error| other(py, error)));
         self.checked = Instant::now();
         if call {
             self.called = Some(self.checked);
@@ -61,6 +56,58 @@ impl Observer for Watcher {
                 self.raised = raised;
                 ControlFlow::Break(())
             }
+        }
+    }
+}
+
+/// None for what stops a run without being an error.
+fn other(py: Python<'_>, error: PyErr) -> Option<PyErr> {
+    let stop = error.is_instance_of::<PyKeyboardInterrupt>(py) || error.is_instance_of::<PyStopIteration>(py);
+    (!stop).then_some(error)
+}
+
+/// Watches a ladder for Python: all its runs, and the start of each.
+pub struct LadderWatcher {
+    runs: Watcher,
+    before_run: Option<Py<PyAny>>,
+    /// Whether `before_run` raised anything: the ladder then stops at the next step.
+    stopped: bool,
+    /// What it raised, other than to stop.
+    refused: Option<PyErr>,
+}
+
+impl LadderWatcher {
+    /// Calls `before_run` with the name of the run, its tolerance, its number and the number of rungs, or 0 for the
+    /// runs that are no rungs.
+    pub fn new(runs: Watcher, before_run: Option<Py<PyAny>>) -> Self {
+        Self { runs, before_run, stopped: false, refused: None }
+    }
+
+    /// What Python raised, other than to stop the ladder.
+    pub fn raised(self) -> Option<PyErr> {
+        self.refused.or(self.runs.raised)
+    }
+}
+
+impl Observer for LadderWatcher {
+    fn after_step(&mut self, progress: &Progress) -> ControlFlow<()> {
+        if self.stopped { ControlFlow::Break(()) } else { self.runs.after_step(progress) }
+    }
+}
+
+impl LadderObserver for LadderWatcher {
+    fn before_run(&mut self, leg: &Leg) {
+        let Some(before_run) = &self.before_run else { return };
+        let arguments = match *leg {
+            Leg::Scout { tolerance } => ("scout", tolerance, 0, 0),
+            Leg::Reference { tolerance, .. } => ("reference", tolerance, 0, 0),
+            Leg::Rung { tolerance, number, count } => ("rung", tolerance, number, count),
+            _ => return,
+        };
+        let called = Python::attach(|py| before_run.call1(py, arguments).map_err(|error| other(py, error)));
+        if let Err(refused) = called {
+            self.stopped = true;
+            self.refused = refused;
         }
     }
 }

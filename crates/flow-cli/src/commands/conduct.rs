@@ -1,8 +1,6 @@
 //! Takes a run to its end, with checkpoints beside its result file, and says how it went.
 
 use std::path::Path;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use flow_core::output::checkpoint::{Pair, Saving, run_saving};
@@ -13,6 +11,7 @@ use super::info;
 use crate::error::CliError;
 use crate::print;
 use crate::progress::Reporter;
+use crate::signals::stop_flag;
 
 /// How a run is watched and saved.
 #[derive(Debug, clap::Args)]
@@ -71,17 +70,6 @@ fn outcome(record: Record, output: &Path) -> Result<(), CliError> {
         StopReason::Interrupted => Err(CliError::Stopped { time, output }),
         StopReason::Failed(message) => Err(CliError::Numerical { message, output }),
     }
-}
-
-/// Raised by SIGINT and SIGTERM; a second signal ends the process at once.
-fn stop_flag() -> Result<Arc<AtomicBool>, CliError> {
-    let stop = Arc::new(AtomicBool::new(false));
-    for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
-        signal_hook::flag::register_conditional_shutdown(signal, 6, Arc::clone(&stop))
-            .and_then(|_| signal_hook::flag::register(signal, Arc::clone(&stop)))
-            .map_err(CliError::Signals)?;
-    }
-    Ok(stop)
 }
 
 fn closing_line(record: &Record, seconds: f64) -> String {

@@ -8,7 +8,7 @@ use flow_core::run::{Record, Rejections, StopReason};
 use serde_json::{Map, Value, json};
 
 use crate::error::CliError;
-use crate::print;
+use crate::print::{self, number};
 
 /// Show how a run ended, what it conserved and what it cost.
 #[derive(Debug, clap::Args)]
@@ -75,11 +75,6 @@ fn summary(record: &Record) -> Vec<(String, Value)> {
     row("rejections_not_finite", json!(not_finite));
     row("integration_seconds", number(counters.integration_seconds));
     rows
-}
-
-/// A number, or the name of what is none: JSON has neither NaN nor infinity.
-fn number(value: f64) -> Value {
-    if value.is_finite() { json!(value) } else { json!(value.to_string()) }
 }
 
 /// Change from `first` to `last`, relative to `first` unless that is zero.

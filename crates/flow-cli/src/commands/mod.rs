@@ -9,3 +9,4 @@ pub mod run;
 mod scene_args;
 pub mod scenes;
 pub mod schema;
+pub mod tradeoff;

@@ -40,7 +40,7 @@ impl Equilibrium {
 
     /// Takes an accepted step; true if the flow is at rest.
     pub fn reached(&mut self, time: f64, energy: f64, dissipation: f64) -> bool {
-        let scale = energy.abs().max(PART_OF_LOSS * (self.initial_energy - energy));
+        let scale = energy_scale(self.initial_energy, energy);
         let (last_time, last_dissipation) = self.last;
         self.last = (time, dissipation);
         // Nothing that double precision can see will happen before the end.
@@ -61,6 +61,12 @@ impl Equilibrium {
         let since = *self.quiet_since.get_or_insert(time);
         self.quiet_steps >= STEPS && time >= 2.0 * since
     }
+}
+
+/// What counts as small of an energy that fell from `initial`.
+#[must_use]
+pub fn energy_scale(initial: f64, energy: f64) -> f64 {
+    energy.abs().max(PART_OF_LOSS * (initial - energy))
 }
 
 #[cfg(test)]

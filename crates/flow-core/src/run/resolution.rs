@@ -9,7 +9,7 @@ use crate::geometry::{Embedding, GradingError};
 /// Fewest nodes that the automatic choice takes.
 const FEWEST: usize = 128;
 /// Most nodes.
-const MOST: usize = 65536;
+pub const MOST: usize = 65536;
 /// Largest distance of nodes in units of ε: a front of width ε/√2 then spans about eight of them from
 /// one side to the other.
 const NODE_DISTANCE_PER_EPSILON: f64 = 0.55;

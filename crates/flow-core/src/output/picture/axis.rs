@@ -162,6 +162,16 @@ pub(super) fn number(value: f64) -> String {
     signed(&format!("{:.2} × {}", value / 10_f64.powi(exponent), power_of_ten(exponent)))
 }
 
+/// A tolerance in running text: `10⁻³`, `3×10⁻³`.
+pub(super) fn tolerance(value: f64) -> String {
+    let exponent = (value.log10() + 1e-9).floor() as i32;
+    let factor = format!("{:.2}", value / 10_f64.powi(exponent));
+    match factor.trim_end_matches('0').trim_end_matches('.') {
+        "1" => power_of_ten(exponent),
+        factor => format!("{factor}×{}", power_of_ten(exponent)),
+    }
+}
+
 /// `10⁻³`, with superscripts.
 fn power_of_ten(exponent: i32) -> String {
     let digits = exponent.to_string();
@@ -210,5 +220,6 @@ mod tests {
             ["12.5", "1000", "1.50 × 10⁻⁷", "0", "−0.25"],
             [12.5, 1000.0, 1.5e-7, 0.0, -0.25].map(number)[..]
         );
+        assert_eq!(["10⁻³", "3×10⁻⁵", "2.5×10⁻¹⁰", "10⁻¹"], [1e-3, 3e-5, 2.5e-10, 0.1].map(tolerance)[..]);
     }
 }

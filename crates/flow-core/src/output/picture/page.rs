@@ -15,6 +15,11 @@ pub(super) const LARGE: f64 = 30.0;
 /// Line height of the font in units of its size; `plotters` counts font sizes so.
 const LINE_HEIGHT: f64 = 1.164;
 
+/// Width of the white around text on lines, and the directions in which the text is drawn for it.
+const HALO: f64 = 2.5;
+const AROUND: [[f64; 2]; 8] =
+    [[1.0, 0.0], [0.7, 0.7], [0.0, 1.0], [-0.7, 0.7], [-1.0, 0.0], [-0.7, -0.7], [0.0, -1.0], [0.7, -0.7]];
+
 /// Axes and text.
 pub(super) const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
 /// The initial state.
@@ -25,6 +30,8 @@ pub(super) const GRID: RGBColor = RGBColor(0xE4, 0xE4, 0xE4);
 pub(super) const SKY: RGBColor = RGBColor(0x00, 0x72, 0xB2);
 pub(super) const VERMILION: RGBColor = RGBColor(0xD5, 0x5E, 0x00);
 pub(super) const SEA: RGBColor = RGBColor(0x00, 0x9E, 0x73);
+pub(super) const ORANGE: RGBColor = RGBColor(0xE6, 0x9F, 0x00);
+pub(super) const ROSE: RGBColor = RGBColor(0xCC, 0x79, 0xA7);
 
 /// Result of drawing on the back end `DB`.
 pub(super) type Drawn<DB, T = ()> = Result<T, DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
@@ -90,6 +97,28 @@ impl<DB: DrawingBackend> Page<DB> {
     pub fn text(&self, text: &str, size: f64, [x, y]: [f64; 2], align: HPos) -> Drawn<DB> {
         let style = self.font(size, INK).pos(Pos::new(align, VPos::Center));
         self.root.draw_text(text, &style, (self.px(x), self.px(y) + self.drop(size)))
+    }
+
+    /// Text as [`text`](Self::text) writes it, legible on top of lines.
+    pub fn text_on_lines(&self, text: &str, size: f64, [x, y]: [f64; 2], align: HPos) -> Drawn<DB> {
+        let style = self.font(size, WHITE).pos(Pos::new(align, VPos::Center));
+        for [right, down] in AROUND {
+            let at = (self.px(x + HALO * right), self.px(y + HALO * down) + self.drop(size));
+            self.root.draw_text(text, &style, at)?;
+        }
+        self.text(text, size, [x, y], align)
+    }
+
+    /// The title of the page, cut if it is too long for it.
+    pub fn title(&self, title: &str) -> Drawn<DB> {
+        // Control characters are not allowed in SVG.
+        let mut title: Vec<char> = title.chars().filter(|c| !c.is_control()).collect();
+        let mut text: String = title.iter().collect();
+        while self.width(&text, LARGE)? > SIZE[0] - 80.0 {
+            title.pop();
+            text = title.iter().chain(['…'].iter()).collect();
+        }
+        self.text(&text, LARGE, [0.5 * SIZE[0], 38.0], HPos::Center)
     }
 
     /// A line through `points` of the back end.

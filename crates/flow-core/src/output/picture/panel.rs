@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use plotters::prelude::*;
+use plotters::style::text_anchor::HPos;
 
 use super::axis::{Axis, LABELS};
 use super::page::{Drawn, GRID, INK, MEDIUM, Page, Pen, SMALL};
@@ -51,15 +52,26 @@ impl Panel {
     pub fn new<DB: DrawingBackend>(
         page: &Page<DB>,
         frame: Rect,
+        x: Named<'_>,
+        y: Named<'_>,
+    ) -> Drawn<DB, Self> {
+        Self::with_room(page, frame, LEFT, x, y)
+    }
+
+    /// As [`new`](Self::new), with so much room to the left of the frame.
+    pub fn with_room<DB: DrawingBackend>(
+        page: &Page<DB>,
+        frame: Rect,
+        room: f64,
         (x, x_name): Named<'_>,
         (y, y_name): Named<'_>,
     ) -> Drawn<DB, Self> {
         let area = page.root.clone().shrink(
-            (page.px(frame.left - LEFT), page.px(frame.top)),
-            (page.px(frame.width() + LEFT), page.px(frame.height() + BELOW)),
+            (page.px(frame.left - room), page.px(frame.top)),
+            (page.px(frame.width() + room), page.px(frame.height() + BELOW)),
         );
         let mut chart = ChartBuilder::on(&area)
-            .set_label_area_size(LabelAreaPosition::Left, page.px(LEFT))
+            .set_label_area_size(LabelAreaPosition::Left, page.px(room))
             .set_label_area_size(LabelAreaPosition::Bottom, page.px(BELOW))
             .build_cartesian_2d(x, y)?;
         let pixels = chart.plotting_area().get_pixel_range();
@@ -120,6 +132,32 @@ impl Panel {
     pub fn draw_frame<DB: DrawingBackend>(&self, page: &Page<DB>) -> Drawn<DB> {
         let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]];
         page.line(corners.map(|place| self.pixel(place)).to_vec(), Pen::solid(INK, 2.0))
+    }
+
+    /// Dots at those of `points` that lie within the frame.
+    pub fn dots<DB: DrawingBackend>(
+        &self,
+        page: &Page<DB>,
+        points: impl IntoIterator<Item = [f64; 2]>,
+        colour: RGBColor,
+        radius: f64,
+    ) -> Drawn<DB> {
+        let places = points.into_iter().map(|[x, y]| [self.x.place(x), self.y.place(y)]);
+        let inside = places.filter(|place| place.iter().all(|place| (0.0..=1.0).contains(place)));
+        inside.into_iter().try_for_each(|place| {
+            page.root.draw(&Circle::new(self.pixel(place), page.px(radius), colour.filled()))
+        })
+    }
+
+    /// Text to the upper right of a point, if that lies within the frame: lines that fall leave it free.
+    pub fn label<DB: DrawingBackend>(&self, page: &Page<DB>, [x, y]: [f64; 2], text: &str) -> Drawn<DB> {
+        let place = [self.x.place(x), self.y.place(y)];
+        if !place.iter().all(|place| (0.0..=1.0).contains(place)) {
+            return Ok(());
+        }
+        let (x, y) = self.pixel(place);
+        let at = [f64::from(x) / page.scale + 0.4 * SMALL, f64::from(y) / page.scale - 0.6 * SMALL];
+        page.text_on_lines(text, SMALL, at, HPos::Left)
     }
 
     /// Pixel of the back end for a place in the unit square.

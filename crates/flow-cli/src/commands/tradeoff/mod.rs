@@ -1,0 +1,106 @@
+//! `curveflow tradeoff SCENE`: measure the error of a ladder of tolerances against the time that they take.
+
+mod report;
+
+use std::path::PathBuf;
+
+use flow_core::output::atomic_file::check_writable;
+use flow_core::output::picture;
+use flow_core::run::tradeoff::{Ladder, Tradeoff, tradeoff};
+
+use super::scene_args::SceneArgs;
+use crate::error::CliError;
+use crate::print;
+use crate::progress::Reporter;
+use crate::signals::stop_flag;
+
+/// Measure true errors against time for a ladder of tolerances; print the table and draw it.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// Tolerances to run, in any order [default: 1e-2, 1e-3 … 1e-8].
+    #[arg(long, value_name = "1e-3,1e-5,…", value_delimiter = ',')]
+    pub tolerances: Option<Vec<f64>>,
+    /// Number of nodes of the reference, so that the error of the nodes is measured too [default: those of the scene; twice
+    /// as many as the tightest run where they are "auto"].
+    #[arg(long, value_name = "N")]
+    pub reference_nodes: Option<usize>,
+    /// Name the quickest run with at most this error.
+    #[arg(long, value_name = "ERROR")]
+    pub error: Option<f64>,
+    /// Figure to write, `.png` or `.svg` [default: the scene's name with _tradeoff.png, in the current folder].
+    #[arg(short, long, value_name = "PNG|SVG")]
+    pub output: Option<PathBuf>,
+    /// Replace an existing figure.
+    #[arg(long)]
+    pub replace: bool,
+    /// Print JSON instead of a table.
+    #[arg(long)]
+    pub json: bool,
+    /// Show no progress.
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// Runs the ladder. What was measured is printed and drawn also if a run fails or a signal stops it.
+pub fn execute(args: &Args) -> Result<(), CliError> {
+    let ladder = ladder(args)?;
+    let scene = args.scene.read()?;
+    let path = args.output.clone().unwrap_or_else(|| default_name(args));
+    picture::check_name(&path)?;
+    check_writable(&path, args.replace)?;
+    let mut reporter = Reporter::new(args.quiet, stop_flag()?, None);
+    let measured = tradeoff(&scene, &ladder, &mut reporter);
+    reporter.finish();
+    let measured = measured?;
+    if !args.quiet {
+        print::talk(&report::scope(&measured));
+    }
+    print::data(&if args.json {
+        report::json(&measured, args.error)
+    } else {
+        report::table(&measured, args.error)
+    })?;
+    if measured.rungs().next().is_some() {
+        let options = picture::Options { replace: args.replace, ..picture::Options::default() };
+        picture::plot_tradeoff(&measured, &path, &options)?;
+        if !args.quiet {
+            print::talk(&path.display().to_string());
+        }
+    }
+    verdict(&measured, args.error)
+}
+
+fn ladder(args: &Args) -> Result<Ladder, CliError> {
+    let default = Ladder::default();
+    let tolerances = args.tolerances.as_deref().unwrap_or(default.tolerances());
+    let ladder = Ladder::new(tolerances, args.reference_nodes);
+    match args.error {
+        Some(error) if !(error > 0.0 && error.is_finite()) => {
+            Err(CliError::Usage { message: format!("--error {error} must be positive and finite; try 1e-4") })
+        }
+        _ => ladder.map_err(|error| CliError::Usage { message: error.to_string() }),
+    }
+}
+
+fn default_name(args: &Args) -> PathBuf {
+    let mut name = args.scene.stem().into_os_string();
+    name.push("_tradeoff.png");
+    PathBuf::from(name)
+}
+
+/// Whether the ladder answers what was asked.
+fn verdict(measured: &Tradeoff, error: Option<f64>) -> Result<(), CliError> {
+    if measured.is_interrupted() {
+        return Err(CliError::LadderStopped { measured: measured.rungs().count() });
+    }
+    let best = measured.rungs().min_by(|(_, a), (_, b)| a.largest_error().total_cmp(&b.largest_error()));
+    let Some((tolerance, best)) = best else { return Err(CliError::AllFailed) };
+    match error {
+        Some(asked) if measured.cheapest(asked).is_none() => {
+            Err(CliError::NotReached { asked, least: best.largest_error(), tolerance })
+        }
+        _ => Ok(()),
+    }
+}

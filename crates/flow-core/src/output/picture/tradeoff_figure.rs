@@ -1,0 +1,159 @@
+//! The work–precision figure: errors against seconds, halfway and at the end, with the tolerance asked for at each run.
+
+use std::path::Path;
+
+use plotters::prelude::*;
+use plotters::style::text_anchor::HPos;
+
+use super::axis::{Axis, number, range, tolerance};
+use super::figure::Options;
+use super::file::{self, PictureError};
+use super::page::{Drawn, INK, ORANGE, Page, Pattern, Pen, ROSE, SEA, SIZE, SKY, SMALL, VERMILION};
+use super::panel::{Panel, Rect};
+use super::render::Draw;
+use crate::run::tradeoff::{Ending, Rung, Tradeoff};
+
+const WIDTH: f64 = 3.5;
+const DOT: f64 = 6.0;
+/// Left of the frames: their labels are as wide as 10⁻¹⁰.
+const ROOM: f64 = 100.0;
+/// Room on the axis of times beside the outermost runs, for their labels.
+const MARGIN: f64 = 0.16;
+/// Least decades on the axes: of times, so that two of 1, 2 and 5 are labelled; of errors, so that two powers of ten are.
+const LEAST_TIMES: f64 = 0.7;
+const LEAST_ERRORS: f64 = 2.5;
+/// The reference tells nothing about errors below this part of its tolerance.
+const RESOLVED: f64 = 0.1;
+
+/// Draws a measured ladder into the file `path`, whose name ends in `.png` or `.svg`; nodal lines are not used.
+/// # Errors
+/// [`PictureError`]; the target is then as it was.
+pub fn plot_tradeoff(tradeoff: &Tradeoff, path: &Path, options: &Options) -> Result<(), PictureError> {
+    if tradeoff.rungs().next().is_none() {
+        return Err(PictureError::NoRungs);
+    }
+    file::write(&Figure::new(tradeoff), path, options.width, options.replace)
+}
+
+/// Errors of one name, halfway and at the end, one per run.
+struct Series<'a> {
+    name: &'a str,
+    pen: Pen,
+    errors: [Vec<f64>; 2],
+}
+
+struct Figure<'a> {
+    tradeoff: &'a Tradeoff,
+    rungs: Vec<(f64, &'a Rung)>,
+    /// Times of the runs, in `unit`.
+    times: Vec<f64>,
+    unit: &'static str,
+    series: Vec<Series<'a>>,
+}
+
+impl<'a> Figure<'a> {
+    fn new(tradeoff: &'a Tradeoff) -> Self {
+        let rungs: Vec<_> = tradeoff.rungs().collect();
+        let longest = rungs.iter().map(|(_, rung)| rung.seconds).fold(0.0, f64::max);
+        let (unit, per_second) = match longest {
+            t if t >= 1.0 => ("s", 1.0),
+            t if t >= 1e-3 => ("ms", 1e3),
+            _ => ("µs", 1e6),
+        };
+        let mut series: Vec<Series<'a>> = Vec::new();
+        for (index, (_, rung)) in rungs.iter().enumerate() {
+            for (at, errors) in rung.errors.iter().enumerate() {
+                for (k, (name, error)) in errors.named(&tradeoff.densities).enumerate() {
+                    if index == 0 && at == 0 {
+                        let pen = pen(k, tradeoff.densities.len());
+                        series.push(Series { name, pen, errors: [Vec::new(), Vec::new()] });
+                    }
+                    series[k].errors[at].push(error);
+                }
+            }
+        }
+        let times = rungs.iter().map(|(_, rung)| per_second * rung.seconds).collect();
+        Self { tradeoff, rungs, times, unit, series }
+    }
+
+    /// From the smallest to the largest error, but not below what the reference resolves.
+    fn errors(&self) -> Axis {
+        let all = self.series.iter().flat_map(|series| series.errors.iter().flatten().copied());
+        let resolved = RESOLVED * self.tradeoff.reference.tolerance;
+        logarithmic(
+            all.filter(|error| *error > 0.0).map(move |error| error.max(resolved)),
+            0.06,
+            LEAST_ERRORS,
+        )
+    }
+
+    /// One panel: `at` is 0 halfway, 1 at the end.
+    fn panel<DB: DrawingBackend>(&self, page: &Page<DB>, frame: Rect, at: usize, caption: &str) -> Drawn<DB> {
+        let x = logarithmic(self.times.iter().copied().filter(|time| *time > 0.0), MARGIN, LEAST_TIMES);
+        let name = format!("time of integration  [{}]", self.unit);
+        let y = (self.errors(), "relative error");
+        let panel = Panel::with_room(page, frame, ROOM, (x, &name), y)?;
+        for series in &self.series {
+            let points = || self.times.iter().zip(&series.errors[at]).map(|(time, error)| [*time, *error]);
+            panel.line(page, points(), series.pen)?;
+            panel.dots(page, points(), series.pen.colour, DOT)?;
+        }
+        for (k, (asked, _)) in self.rungs.iter().enumerate() {
+            let top = self.series.iter().map(|series| series.errors[at][k]).fold(0.0, f64::max);
+            panel.label(page, [self.times[k], top], &tolerance(*asked))?;
+        }
+        panel.draw_frame(page)?;
+        page.text(caption, SMALL, [frame.left, frame.top - 24.0], HPos::Left)
+    }
+}
+
+impl Draw for Figure<'_> {
+    fn draw<DB: DrawingBackend>(&self, page: &Page<DB>) -> Drawn<DB> {
+        let Tradeoff { title, span, reference, .. } = self.tradeoff;
+        page.title(title)?;
+        let left = Rect { left: 112.0, top: 156.0, right: 766.0, bottom: 770.0 };
+        let right = Rect { left: 886.0, right: 1540.0, ..left };
+        // What the flow keeps to the last digit has no line.
+        let drawn =
+            self.series.iter().filter(|series| series.errors.iter().flatten().any(|error| *error > 0.0));
+        let entries: Vec<(Pen, &str)> = drawn.map(|series| (series.pen, series.name)).collect();
+        page.legend([left.left, 92.0], &entries)?;
+        let halfway = format!("half of the energy lost, t = {}", number(span.halfway));
+        let end = match span.ending {
+            Ending::EndTime => "end",
+            Ending::Equilibrium => "at rest",
+            Ending::Contact => "contact",
+        };
+        self.panel(page, left, 0, &halfway)?;
+        self.panel(page, right, 1, &format!("{end}, t = {}", number(span.end)))?;
+        let scope = if self.tradeoff.includes_space() { "time and space" } else { "time only" };
+        let note = format!(
+            "numbers at the runs: tolerance asked for; errors in {scope}, against tolerance {} with {} nodes",
+            tolerance(reference.tolerance),
+            reference.nodes
+        );
+        page.text(&note, SMALL, [0.5 * SIZE[0], 872.0], HPos::Center)
+    }
+}
+
+/// Curve and curvature, the densities, energy and length; what is drawn later lets the lines below show through.
+fn pen(series: usize, densities: usize) -> Pen {
+    let dots = |colour| Pen { colour, width: WIDTH + 1.5, pattern: Pattern::Dots { spacing: 9.0 } };
+    match series {
+        0 => Pen::solid(INK, WIDTH),
+        1 => Pen::solid(SKY, WIDTH),
+        k if k < 2 + densities => match (k - 2) % 2 {
+            0 => Pen::dashed(SEA, WIDTH, 14.0, 8.0),
+            _ => Pen::dashed(ORANGE, WIDTH, 7.0, 7.0),
+        },
+        k if k == 2 + densities => Pen::dashed(VERMILION, WIDTH, 24.0, 12.0),
+        _ => dots(ROSE),
+    }
+}
+
+/// A logarithmic axis around positive values, with `margin` of its length beside them on both sides, over `least` decades at least.
+fn logarithmic(values: impl Iterator<Item = f64>, margin: f64, least: f64) -> Axis {
+    let (low, high) = range(values.map(f64::log10));
+    let pad = (margin * (high - low)).max(0.5 * (least - (high - low)));
+    Axis::logarithmic(10_f64.powf(low - pad), 10_f64.powf(high + pad))
+}

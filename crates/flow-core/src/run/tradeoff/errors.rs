@@ -1,0 +1,126 @@
+//! The distance of two states of the same flow: `THEORY.md`, eq. (I8).
+
+use super::super::equilibrium::energy_scale;
+use super::super::interpolant::Interpolant;
+use super::super::record::Frame;
+use super::curve_distance::{Curve, distances};
+
+/// Relative errors of a state, as measured against the reference at the same time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Errors {
+    /// Largest distance of the curve from that of the reference, less the rigid motion that fits best, per length.
+    pub curve: f64,
+    /// Of the curvature, in L²(dσ).
+    pub curvature: f64,
+    /// Of each density, in L²(dσ), in the order of the scene.
+    pub densities: Vec<f64>,
+    /// Of the energy; where that is near zero, relative to a thousandth of what was lost.
+    pub energy: f64,
+    /// Of the length.
+    pub length: f64,
+}
+
+impl Errors {
+    /// Of `frame` against `reference`, which may have other nodes: both are interpolated to the more of them.
+    pub(super) fn of(frame: &Frame, reference: &Frame, initial_energy: f64) -> Self {
+        let count = frame.curvature.len().max(reference.curvature.len());
+        let on = |values: &[f64]| Interpolant::new(values).resampled(count);
+        let weight = on(&reference.metric);
+        let l2 = |values: &[f64], exact: &[f64]| relative_l2(&on(values), &on(exact), &weight);
+        let distances = distances(&Curve::new(frame, count), &Curve::new(reference, count));
+        let densities = frame.density.iter().zip(&reference.density);
+        Self {
+            curve: distances.into_iter().fold(0.0, larger) / reference.length,
+            curvature: l2(&frame.curvature, &reference.curvature),
+            densities: densities.map(|(values, exact)| l2(values, exact)).collect(),
+            energy: relative(frame.energy - reference.energy, energy_scale(initial_energy, reference.energy)),
+            length: relative(frame.length - reference.length, reference.length),
+        }
+    }
+
+    /// All of them with their names, densities by those in `densities`.
+    pub fn named<'a>(&self, densities: &'a [String]) -> impl Iterator<Item = (&'a str, f64)> {
+        let pointwise = densities.iter().map(String::as_str).zip(self.densities.clone());
+        [("curve", self.curve), ("curvature", self.curvature)]
+            .into_iter()
+            .chain(pointwise)
+            .chain([("energy", self.energy), ("length", self.length)])
+    }
+
+    /// The largest of them.
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        let others = [self.curve, self.curvature, self.energy, self.length];
+        others.into_iter().chain(self.densities.iter().copied()).fold(0.0, larger)
+    }
+}
+
+/// The larger of two errors; NaN, which no bound holds, is the largest.
+pub(super) fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
+}
+
+/// The size of a difference in units of `scale`; itself where that is zero.
+fn relative(difference: f64, scale: f64) -> f64 {
+    if scale == 0.0 { difference.abs() } else { (difference / scale).abs() }
+}
+
+/// ‖a − b‖/‖b‖ in L²(dσ), `weight` being the metric.
+fn relative_l2(values: &[f64], exact: &[f64], weight: &[f64]) -> f64 {
+    let norm = |value: &dyn Fn(usize) -> f64| -> f64 {
+        let squares = weight.iter().enumerate().map(|(i, weight)| weight * value(i).powi(2));
+        (squares.sum::<f64>() / weight.len() as f64).sqrt()
+    };
+    relative(norm(&|i| values[i] - exact[i]), norm(&|i| exact[i]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    /// A circle with the density 1 + a cos 2πs.
+    fn circle(nodes: usize, radius: f64, amplitude: f64) -> Frame {
+        let angle = |i: usize| TAU * i as f64 / nodes as f64;
+        Frame {
+            energy: std::f64::consts::PI / radius,
+            length: TAU * radius,
+            curvature: vec![1.0 / radius; nodes],
+            metric: vec![TAU * radius; nodes],
+            position: (0..nodes).map(|i| [radius * angle(i).cos(), radius * angle(i).sin()]).collect(),
+            density: vec![(0..nodes).map(|i| 1.0 + amplitude * angle(i).cos()).collect()],
+            ..Frame::default()
+        }
+    }
+
+    #[test]
+    fn errors_of_circles_are_those_of_their_radii() {
+        for nodes in [32, 64, 96] {
+            let errors = Errors::of(&circle(64, 1.001, 0.0), &circle(nodes, 1.0, 0.01), 4.0);
+            assert!((errors.curve - 1e-3 / TAU).abs() < 1e-14, "{errors:?}");
+            assert!((errors.curvature - 1e-3 / 1.001).abs() < 1e-13, "{errors:?}");
+            assert!((errors.energy - 1e-3 / 1.001).abs() < 1e-13, "{errors:?}");
+            assert!((errors.length - 1e-3).abs() < 1e-13, "{errors:?}");
+            let exact = 0.01 * 0.5_f64.sqrt() / (1.0 + 0.5e-4_f64).sqrt();
+            assert!((errors.densities[0] - exact).abs() < 1e-13, "{errors:?}");
+            assert_eq!(errors.largest(), errors.densities[0]);
+        }
+    }
+
+    #[test]
+    fn what_is_zero_has_an_absolute_error() {
+        let empty =
+            |density: f64| Frame { energy: 0.0, density: vec![vec![density; 32]], ..circle(32, 1.0, 0.0) };
+        assert_eq!(Errors::of(&empty(0.0), &empty(0.0), 0.0).energy, 0.0);
+        let errors = Errors::of(&empty(1e-3), &empty(0.0), 0.0);
+        // In L²(dσ) of a curve of length 2π.
+        assert!((errors.densities[0] - 1e-3 * TAU.sqrt()).abs() < 1e-15, "{errors:?}");
+    }
+
+    #[test]
+    fn a_state_that_is_no_number_has_the_largest_error() {
+        let errors =
+            Errors { curve: 0.0, curvature: f64::NAN, densities: vec![1.0], energy: 2.0, length: 0.0 };
+        assert!(errors.largest().is_nan());
+    }
+}

@@ -1,0 +1,155 @@
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+import curveflow as cf
+from curveflow import _curveflow, ladder, running
+
+LADDER = [1e-5, 1e-2, 1e-3]
+
+INTERRUPTED = """
+import curveflow as cf
+scene = cf.Scene.shipped("three_fold_sharp").with_values({"time.stop_at_equilibrium": False, "time.end": 1e6})
+print("started", flush=True)
+try:
+    cf.tradeoff(scene.with_values({"accuracy.tolerance": 1e-9}))
+except KeyboardInterrupt as stop:
+    print(stop, flush=True)
+"""
+
+
+@pytest.fixture(scope="module")
+def measured() -> cf.Tradeoff:
+    return cf.tradeoff(cf.Scene.shipped("three_fold"), LADDER)
+
+
+def test_arrays_have_an_entry_per_run(measured: cf.Tradeoff):
+    np.testing.assert_array_equal(measured.tolerance, [1e-2, 1e-3, 1e-5])
+    assert list(measured.errors) == ["curve", "curvature", "protein", "energy", "length"]
+    for array in (measured.tolerance, measured.error, measured.seconds):
+        assert array.shape == (3,) and array.dtype == np.float64 and not array.flags.writeable
+    for array in (measured.nodes, measured.steps):
+        assert array.shape == (3,) and array.dtype == np.uint64
+    for name, errors in measured.errors.items():
+        assert errors.shape == (2, 3), name
+        assert (errors <= measured.error).all(), name
+    assert (np.diff(measured.error) < 0).all()
+    assert (measured.nodes == 512).all()
+    assert measured.failures == [None] * 3
+    assert not measured.interrupted and not measured.includes_space
+    assert measured.ending == "equilibrium" and 0 < measured.times[0] < measured.times[1]
+    assert measured.reference[:3] == (1e-7, False, 512)
+    assert repr(measured) == "<Tradeoff 'Three-fold protein membrane': 3 of 3 runs measured>"
+
+
+def test_errors_are_those_of_single_runs(circle: cf.Scene):
+    measured = cf.tradeoff(circle, [1e-3])
+    result = cf.run(circle.with_values({"accuracy.tolerance": 1e-3}))
+    assert measured.steps[0] == result.stats["steps"]
+    true = abs(result.length[-1] / (2 * np.pi * 3**0.25) - 1)
+    assert 0.5 < measured.errors["length"][1, 0] / true < 2
+
+
+def test_the_cheapest_setting_is_named(measured: cf.Tradeoff):
+    setting = measured.cheapest(1e-4)
+    assert setting is not None
+    assert (setting.tolerance, setting.nodes) == (1e-5, 512)
+    assert setting.error == measured.error[2] <= 1e-4
+    assert measured.cheapest(1e-15) is None
+
+
+def test_more_nodes_in_the_reference_add_the_error_of_space(circle: cf.Scene):
+    measured = cf.tradeoff(circle, (1e-3,), reference_nodes=64)
+    assert measured.includes_space and measured.reference.nodes == 64
+
+
+def test_a_bad_ladder_says_why(circle: cf.Scene):
+    with pytest.raises(cf.LadderError, match="1e-12, number 2 of the list, must be between 1e-10") as raised:
+        cf.tradeoff(circle, [1e-3, 1e-12])
+    assert isinstance(raised.value, ValueError)
+    with pytest.raises(cf.LadderError, match="the reference has 16 nodes, but the tightest run 32"):
+        cf.tradeoff(circle, [1e-3], reference_nodes=16)
+    with pytest.raises(cf.TradeoffError, match=r"(?s)its own tolerance 1e-4.*time\.max_steps"):
+        cf.tradeoff(circle.with_values({"time.max_steps": 3}))
+    with pytest.raises(cf.SetupError, match="initial"):
+        cf.tradeoff(cf.Scene.shipped("three_fold").with_values({"density.protein.initial": "ln(s)"}))
+
+
+def test_the_figure_has_both_times(measured: cf.Tradeoff):
+    figure = measured.plot(Figure())
+    assert len(figure.axes) == 2
+    for axes in figure.axes:
+        assert [line.get_label() for line in axes.lines] == list(measured.errors)
+        assert [text.get_text() for text in axes.texts] == ["0.01", "0.001", "1e-05"]
+    figure.draw_without_rendering()
+
+
+def test_progress_names_the_run(circle: cf.Scene, monkeypatch: pytest.MonkeyPatch):
+    heads: list[str] = []
+
+    class Recorder(running.Line):
+        def __setattr__(self, name: str, value: object) -> None:
+            if name == "head" and value:
+                heads.append(str(value))
+            super().__setattr__(name, value)
+
+    monkeypatch.setattr(ladder, "Line", Recorder)
+    cf.tradeoff(circle, [1e-2], progress=True)
+    assert "the scout, tolerance 0.0001: " in heads
+    assert "the reference, tolerance 0.0001: " in heads
+    assert "run 1 of 1, tolerance 0.01: " in heads
+
+
+def test_ctrl_c_keeps_the_complete_runs(circle: cf.Scene):
+    def interrupt(name: str, tolerance: float, number: int, count: int) -> None:
+        if number == 2:
+            signal.raise_signal(signal.SIGINT)
+
+    native = _curveflow.tradeoff(circle._native, [1e-2, 1e-3, 1e-4], None, interrupt, None, 0.0)
+    measured = cf.Tradeoff(native)
+    assert measured.interrupted
+    np.testing.assert_array_equal(np.isnan(measured.error), [False, True, True])
+    np.testing.assert_array_equal(np.isnan(measured.errors["curve"][1]), [False, True, True])
+    assert measured.failures[0] is None and "interrupted" in str(measured.failures[1])
+    assert measured.cheapest(1.0) is not None
+    assert len(measured.plot(Figure()).axes) == 2
+
+
+def test_errors_of_a_callback_are_passed_on(circle: cf.Scene):
+    def fail(*_: object) -> None:
+        raise ZeroDivisionError("mine")
+
+    for before_run, callback in ((fail, None), (None, fail)):
+        with pytest.raises(ZeroDivisionError, match="mine"):
+            _curveflow.tradeoff(circle._native, [1e-2], None, before_run, callback, 0.0)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows sends no SIGINT to a single process")
+def test_ctrl_c_before_the_reference_is_complete_raises():
+    command = [sys.executable, "-c", INTERRUPTED]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stdout and process.stdout.readline() == "started\n"
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        stdout, stderr = process.communicate(timeout=30)
+    assert process.returncode == 0, stderr
+    assert "nothing is measured yet" in stdout
+
+
+def test_ladders_in_threads_agree():
+    results: list[cf.Tradeoff] = []
+    scene = cf.Scene.shipped("three_fold")
+    threads = [threading.Thread(target=lambda: results.append(cf.tradeoff(scene, [1e-3]))) for _ in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    first, second = results
+    np.testing.assert_array_equal(first.error, second.error)
