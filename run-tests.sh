@@ -17,4 +17,5 @@ RUSTDOCFLAGS="-D warnings" cargo doc --release --workspace --no-deps
 
 python -m pip install --quiet --disable-pip-version-check ".[test]"
 python -m mypy python/curveflow
+python -m mypy python/gallery
 python -m pytest # runs stubtest too

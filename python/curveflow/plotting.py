@@ -67,7 +67,7 @@ def draw_state(result: Result, axes: Axes, frame: int = -1) -> None:
         name, rho = next(iter(result.density.items()))
         axes.plot(_closed(rho[0]), _closed(kappa[0]), **_INITIAL, label="initial")
         axes.plot(_closed(rho[frame]), _closed(kappa[frame]), "k", linewidth=2, label="final")
-        _draw_nodal_lines(result, name, axes)
+        draw_nodal_lines(result, axes)
         axes.set(xlabel=f"{_plain(name)} density $\\rho$", ylabel="curvature $\\kappa$")
     else:
         axes.plot(_arc_length(result.metric[0]), _closed(kappa[0]), **_INITIAL, label="initial")
@@ -98,12 +98,15 @@ def draw_history(result: Result, axes: Axes) -> None:
     axes.legend(handles=[left, right], fontsize="small", frameon=False)
 
 
-def _draw_nodal_lines(result: Result, name: str, axes: Axes) -> None:
-    """Draw where the energy of the agents vanishes, within the limits of what is drawn already."""
+def draw_nodal_lines(result: Result, axes: Axes) -> None:
+    """Draw where the energy of the agents vanishes, within the limits of density (x) and curvature (y) of ``axes``.
+
+    Draws nothing if the energy has no agents, or not of the first density.
+    """
     (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
     rho, kappa = np.linspace(left, right, 400), np.linspace(bottom, top, 400)
     lines = result.scene._native.nodal_lines(rho, kappa)
-    if lines is None or lines[0] != name:
+    if lines is None or lines[0] != next(iter(result.density)):
         return
     _, preferred, low, high = lines
     axes.plot(rho, preferred, color=_VERMILION, label="$\\kappa_0(\\rho)$")

@@ -10,6 +10,7 @@ import curveflow as cf
 VALUES = (
     "time", "energy", "dissipation", "energy_balance", "remap_error", "length", "area", "closure_defect", "crossings",
 )
+REQUESTED = ("normal_force", "tangential_velocity", "excess_density", "membrane_flux", "energy_density")
 FIELDS = ("curvature", "metric", "normal_velocity")
 
 
@@ -59,6 +60,59 @@ def test_arrays_mean_what_their_names_say(membrane: cf.Result):
     assert membrane.energy is membrane.energy
 
 
+@pytest.fixture(scope="session")
+def stiff() -> cf.Result:
+    """A stiff membrane on its way to the incompressible manifold, with all fields that there are."""
+    scene = cf.Scene.shipped("membrane_penalty")
+    fields = [name.replace("_", "-") for name in REQUESTED]
+    return cf.run(scene.with_values({"output.fields": fields, "output.frames": 4, "accuracy.tolerance": 1e-4}))
+
+
+def test_requested_fields_and_diagnostics_are_arrays(stiff: cf.Result):
+    frames, nodes = len(stiff.time), 256
+    assert tuple(stiff.fields) == REQUESTED
+    for field in stiff.fields.values():
+        check(field, (frames, nodes))
+    assert list(stiff.diagnostics) == ["incompressible_distance", "velocity_residual"]
+    for values in stiff.diagnostics.values():
+        check(values, (frames,))
+    assert list(stiff.energy_terms) == ["bending", "membrane"]
+    check(stiff.parameter, (nodes,))
+    np.testing.assert_array_equal(stiff.parameter * nodes, np.arange(nodes))
+
+
+def test_what_no_scene_asks_for_is_not_there(membrane: cf.Result):
+    assert not membrane.fields
+    assert not membrane.diagnostics
+
+
+def test_requested_fields_mean_what_their_names_say(stiff: cf.Result):
+    # The mobility of the scene is the identity.
+    np.testing.assert_allclose(stiff.fields["normal_force"], stiff.normal_velocity, rtol=1e-12)
+    total = (stiff.fields["energy_density"] * stiff.metric).mean(axis=1)
+    np.testing.assert_allclose(total, stiff.energy, rtol=1e-10)
+    # (F1): the gauge stretches every piece at the same rate. At the start V has a sawtooth that (F1) leaves out.
+    stretching = stiff.metric * stiff.curvature * stiff.normal_velocity
+    rate = stretching.mean(axis=1, keepdims=True) - stretching
+    slope = derivative(stiff.fields["tangential_velocity"])
+    np.testing.assert_allclose(slope[1:], rate[1:], atol=1e-6 * np.abs(rate).max())
+    # (F11): the flux is the slope of the excess density, downhill.
+    excess, flux = stiff.fields["excess_density"], stiff.fields["membrane_flux"]
+    np.testing.assert_allclose(-derivative(excess), flux * stiff.metric, atol=1e-6 * np.abs(flux).max())
+    epsilon = 0.01
+    off = stiff.density["membrane"] - 1 - epsilon * excess
+    distance = np.sqrt((off**2 * stiff.metric).mean(axis=1))
+    np.testing.assert_allclose(stiff.diagnostics["incompressible_distance"], distance, rtol=1e-10)
+    assert distance[-1] < 0.2 * distance[0]
+
+
+def derivative(field: np.ndarray) -> np.ndarray:
+    """Derivative by the parameter of periodic rows."""
+    spectrum = np.fft.rfft(field, axis=1)
+    modes = np.arange(spectrum.shape[1])
+    return np.fft.irfft(2j * np.pi * modes * spectrum, field.shape[1], axis=1)
+
+
 def test_saved_results_come_back(membrane: cf.Result, tmp_path: Path):
     path = tmp_path / "out.h5"
     membrane.save(path)
@@ -73,6 +127,23 @@ def test_saved_results_come_back(membrane: cf.Result, tmp_path: Path):
     assert again.scene.text == membrane.scene.text
     assert again.resolved_scene == membrane.resolved_scene
     assert repr(again) == repr(membrane)
+
+
+def test_requested_fields_and_diagnostics_come_back(stiff: cf.Result, tmp_path: Path):
+    path = tmp_path / "out.h5"
+    stiff.save(path)
+    again = cf.open(path)
+    for kind in ("fields", "diagnostics", "energy_terms", "mass"):
+        ours, theirs = getattr(stiff, kind), getattr(again, kind)
+        assert list(ours) == list(theirs)
+        for name, values in ours.items():
+            np.testing.assert_array_equal(theirs[name], values, err_msg=name)
+    with h5py.File(path) as file:
+        for name, values in stiff.fields.items():
+            np.testing.assert_array_equal(file[f"fields/{name}"], values)
+        for name, values in stiff.diagnostics.items():
+            np.testing.assert_array_equal(file[f"diagnostics/{name}"], values)
+        np.testing.assert_array_equal(file["parameter"], stiff.parameter)
 
 
 def test_existing_files_are_kept(membrane: cf.Result, tmp_path: Path):

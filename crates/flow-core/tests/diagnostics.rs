@@ -14,7 +14,7 @@ fn record(text: &str) -> Record {
 }
 
 fn field<'a>(record: &Record, frame: &'a Frame, field: OutputField) -> &'a [f64] {
-    let index = record.fields.iter().position(|name| name == field.name()).unwrap();
+    let index = record.fields.iter().position(|name| *name == field.name().replace('-', "_")).unwrap();
     &frame.fields[index]
 }
 

@@ -82,6 +82,18 @@ impl Record {
         self.core.densities.iter().map(String::as_str).collect()
     }
 
+    /// Names of the fields that the scene asks for.
+    #[getter]
+    fn fields(&self) -> Vec<&str> {
+        self.core.fields.iter().map(String::as_str).collect()
+    }
+
+    /// Names of the values per frame that come with a term.
+    #[getter]
+    fn diagnostics(&self) -> Vec<&str> {
+        self.core.diagnostics.iter().map(String::as_str).collect()
+    }
+
     /// Number of frames and of nodes.
     #[getter]
     fn shape(&self) -> (usize, usize) {
@@ -117,6 +129,12 @@ impl Record {
         Ok(self.per_frame(py, |frame| frame.mass[density]))
     }
 
+    /// The value of this number among those that come with a term, per frame.
+    fn diagnostic<'py>(&self, py: Python<'py>, diagnostic: usize) -> PyResult<Vector<'py>> {
+        check(diagnostic, self.core.diagnostics.len())?;
+        Ok(self.per_frame(py, |frame| frame.diagnostics[diagnostic]))
+    }
+
     /// A field per frame and node, by its name.
     fn field<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Table<'py>> {
         let field: fn(&Frame) -> &[f64] = match name {
@@ -132,6 +150,12 @@ impl Record {
     fn density<'py>(&self, py: Python<'py>, density: usize) -> PyResult<Table<'py>> {
         check(density, self.core.densities.len())?;
         self.per_node(py, |frame| &frame.density[density])
+    }
+
+    /// The field of this number among those that the scene asks for, per frame and node.
+    fn requested_field<'py>(&self, py: Python<'py>, field: usize) -> PyResult<Table<'py>> {
+        check(field, self.core.fields.len())?;
+        self.per_node(py, |frame| &frame.fields[field])
     }
 
     /// Position, per frame and node.

@@ -20,9 +20,12 @@ pub struct Args {
     /// Replace an existing figure.
     #[arg(long)]
     pub replace: bool,
+    /// Do not print the name of the figure.
+    #[arg(short, long)]
+    pub quiet: bool,
 }
 
-/// Draws the figure and prints its name.
+/// Draws the figure and prints its name, unless quiet.
 pub fn execute(args: &Args) -> Result<(), CliError> {
     let path = args.output.clone().unwrap_or_else(|| args.out.with_extension("png"));
     check_writable(&path, args.replace)?;
@@ -34,5 +37,5 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     });
     let options = picture::Options { replace: args.replace, nodal_lines, ..picture::Options::default() };
     picture::plot(&record, &path, &options)?;
-    print::data(&path.display().to_string())
+    if args.quiet { Ok(()) } else { print::data(&path.display().to_string()) }
 }

@@ -71,10 +71,10 @@ impl Diagnostics {
         })
     }
 
-    /// Names of the fields, in the order of the scene.
+    /// Names of the fields, in the order of the scene: its choices, spelled as the other names of a record are.
     #[must_use]
     pub fn field_names(&self) -> Vec<String> {
-        self.fields.iter().map(|field| field.name().to_owned()).collect()
+        self.fields.iter().map(|field| field.name().replace('-', "_")).collect()
     }
 
     /// Names of the values per frame.

@@ -132,7 +132,7 @@ pub struct Record {
     pub energy_terms: Vec<String>,
     /// Names of the densities.
     pub densities: Vec<String>,
-    /// Names of the fields that the scene asks for (`[output] fields`).
+    /// Names of the fields that the scene asks for (`[output] fields`), with underscores: `normal_force`.
     pub fields: Vec<String>,
     /// Names of the values per frame that come with a term. With a membrane term under the L² flow: the distances
     /// in L²(dσ) `incompressible_distance`, of ρ from 1 + ερ̄, and `velocity_residual`, of V from 𝓘V̂.
