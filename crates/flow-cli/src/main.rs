@@ -12,7 +12,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use commands::{check, info, plot, run, scenes};
+use commands::{check, info, plot, run, scenes, view};
 use error::CliError;
 
 /// Gradient flows of energies of closed planar curves that carry embedded densities.
@@ -29,6 +29,7 @@ enum Command {
     Check(check::Args),
     Info(info::Args),
     Plot(plot::Args),
+    View(view::Args),
     Scenes(scenes::Args),
 }
 
@@ -39,6 +40,7 @@ impl Command {
             Self::Check(args) => check::execute(args),
             Self::Info(args) => info::execute(args),
             Self::Plot(args) => plot::execute(args),
+            Self::View(args) => view::execute(args),
             Self::Scenes(args) => scenes::execute(args),
         }
     }

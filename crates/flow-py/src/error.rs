@@ -5,6 +5,7 @@ use std::fmt::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use flow_core::output::StorageError;
+use flow_core::output::page::PageError;
 use flow_core::run::{SceneError, SetupError};
 use pyo3::prelude::*;
 
@@ -23,6 +24,10 @@ impl PythonError for SetupError {
 }
 
 impl PythonError for StorageError {
+    const CLASS: &'static str = "StorageError";
+}
+
+impl PythonError for PageError {
     const CLASS: &'static str = "StorageError";
 }
 

@@ -6,3 +6,4 @@ pub mod plot;
 pub mod run;
 mod scene_args;
 pub mod scenes;
+pub mod view;
