@@ -4,6 +4,7 @@
 mod synthetic;
 
 use std::fs;
+use std::path::PathBuf;
 
 use flow_core::output::StorageError;
 use flow_core::output::page::{PageError, html, view};
@@ -12,6 +13,16 @@ use flow_core::run::{Record, StepLog, StopReason};
 /// Everything that has ended a text before its time.
 const HOSTILE: &str =
     "</title></script><!--<script>alert(1)</script> \" ' ` & \\ ${x} \0 \u{7} \u{202e}\u{2066}\u{2028} ]]>";
+
+/// The page of `record`; it stays as `name`.html if `CURVEFLOW_KEEP_PAGES` names a folder, for the tests in a browser.
+fn kept(record: &Record, name: &str) -> String {
+    let page = html(record).unwrap();
+    if let Some(folder) = std::env::var_os("CURVEFLOW_KEEP_PAGES").map(PathBuf::from) {
+        fs::create_dir_all(&folder).unwrap();
+        fs::write(folder.join(name).with_extension("html"), &page).unwrap();
+    }
+    page
+}
 
 /// The content of the element that starts with `tag`, up to the first `end`, as a browser finds it.
 fn content<'a>(page: &'a str, tag: &str, end: &str) -> &'a str {
@@ -46,7 +57,7 @@ fn hostile() -> Record {
 
 #[test]
 fn hostile_texts_stay_texts() {
-    let page = html(&hostile()).unwrap();
+    let page = kept(&hostile(), "hostile");
     let tame = html(&Record { title: "tame".to_owned(), ..synthetic::record(3, 16, &["tame"]) }).unwrap();
     // As many elements, in the same places, as in any other page.
     let title = "&lt;/title&gt;&lt;/script&gt;&lt;!--&lt;script&gt;alert(1)&lt;/script&gt; &quot; ' ` &amp; \\ ${x} \
@@ -94,11 +105,22 @@ fn what_is_not_a_number_is_kept_as_such() {
     assert!(summary(&page).contains(r#"["energy, first → last",[null,"#));
 }
 
+/// A quarter of the nodes has no position, another no density: what is shown of them is for the tests in a browser.
+#[test]
+fn gaps_are_kept() {
+    let mut record = synthetic::record(3, 64, &["protein"]);
+    record.frames[1] = record.frames[0].clone();
+    record.frames[1].position[..16].fill([f64::NAN; 2]);
+    record.frames[1].density[0][32..48].fill(f64::NAN);
+    let page = kept(&record, "gaps");
+    assert_eq!(content(&page, "id=\"positions\">", "</script").len(), 3 * 64 * 8 * 4 / 3);
+}
+
 #[test]
 fn one_frame_is_a_page() {
     let mut record = synthetic::record(1, 64, &[]);
     record.steps = StepLog::default();
-    let page = html(&record).unwrap();
+    let page = kept(&record, "one-frame");
     assert!(summary(&page).contains(r#""frames":1,"nodes":64,"#));
     assert_eq!(content(&page, "id=\"steps\">", "</script"), "");
 }
