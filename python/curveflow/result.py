@@ -234,6 +234,18 @@ class Result:
         """
         self._record.save(path, replace)
 
+    def view(self, path: str | os.PathLike[str], replace: bool = False) -> None:
+        """Write a page (HTML) that shows the run moving in any browser, as ``curveflow view`` does.
+
+        Args:
+            path: its name. The page is one file and needs no network.
+            replace: whether an existing file may be replaced.
+
+        Raises:
+            StorageError: the file exists or cannot be written; an existing file is then as it was.
+        """
+        self._record.view(path, replace)
+
     def __repr__(self) -> str:
         frames, nodes = self._record.shape
         return f"<Result {self.title!r}: {self.status} at t = {self.time[-1]:.6g}, {frames} frames, {nodes} nodes>"

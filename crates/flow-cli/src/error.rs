@@ -5,6 +5,7 @@ use std::io;
 use std::path::PathBuf;
 
 use flow_core::output::StorageError;
+use flow_core::output::page::PageError;
 use flow_core::output::picture::PictureError;
 use flow_core::run::tradeoff::TradeoffError;
 
@@ -84,6 +85,15 @@ impl From<PictureError> for CliError {
     fn from(error: PictureError) -> Self {
         match error {
             PictureError::Storage(error) => error.into(),
+            other => Self::Usage { message: other.to_string() },
+        }
+    }
+}
+
+impl From<PageError> for CliError {
+    fn from(error: PageError) -> Self {
+        match error {
+            PageError::Storage(error) => error.into(),
             other => Self::Usage { message: other.to_string() },
         }
     }

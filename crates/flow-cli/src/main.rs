@@ -13,7 +13,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use commands::{check, info, plot, resume, run, scenes, schema, tradeoff};
+use commands::{check, info, plot, resume, run, scenes, schema, tradeoff, view};
 use error::CliError;
 
 /// Gradient flows of energies of closed planar curves that carry embedded densities.
@@ -32,6 +32,7 @@ enum Command {
     Info(info::Args),
     Plot(plot::Args),
     Tradeoff(tradeoff::Args),
+    View(view::Args),
     Scenes(scenes::Args),
     Schema(schema::Args),
 }
@@ -45,6 +46,7 @@ impl Command {
             Self::Info(args) => info::execute(args),
             Self::Plot(args) => plot::execute(args),
             Self::Tradeoff(args) => tradeoff::execute(args),
+            Self::View(args) => view::execute(args),
             Self::Scenes(args) => scenes::execute(args),
             Self::Schema(args) => schema::execute(args),
         }

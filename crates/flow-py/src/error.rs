@@ -5,6 +5,7 @@ use std::fmt::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use flow_core::output::StorageError;
+use flow_core::output::page::PageError;
 use flow_core::run::tradeoff::{LadderError, TradeoffError};
 use flow_core::run::{SceneError, SetupError};
 use pyo3::prelude::*;
@@ -46,6 +47,12 @@ impl PythonError for TradeoffError {
             Self::FewerNodes { .. } | Self::TooManyNodes { .. } => "LadderError",
             _ => "TradeoffError",
         }
+    }
+}
+
+impl PythonError for PageError {
+    fn class(&self) -> &'static str {
+        "StorageError"
     }
 }
 

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use flow_core::output::page::{self, PageError};
 use flow_core::output::{StorageError, hdf5_file};
 use flow_core::run::{self as core, Frame, Rejections};
 use numpy::PyArray3;
@@ -200,6 +201,11 @@ impl Record {
     /// Writes a result file.
     fn save(&self, py: Python<'_>, path: PathBuf, replace: bool) -> PyResult<()> {
         detached::<_, StorageError>(py, || hdf5_file::write(&self.core, &path, replace))
+    }
+
+    /// Writes a page for the browser.
+    fn view(&self, py: Python<'_>, path: PathBuf, replace: bool) -> PyResult<()> {
+        detached::<_, PageError>(py, || page::view(&self.core, &path, replace))
     }
 }
 

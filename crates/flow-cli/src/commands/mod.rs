@@ -10,3 +10,4 @@ mod scene_args;
 pub mod scenes;
 pub mod schema;
 pub mod tradeoff;
+pub mod view;

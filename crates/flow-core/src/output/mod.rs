@@ -4,6 +4,7 @@ pub mod atomic_file;
 pub mod checkpoint;
 #[cfg(feature = "hdf5")]
 pub mod hdf5_file;
+pub mod page;
 #[cfg(feature = "picture")]
 pub mod picture;
 mod storage_error;

@@ -1,0 +1,117 @@
+//! The HTML document: the page of `browser/` with the data of a record.
+
+use std::path::{Path, PathBuf};
+
+use super::payload::Payload;
+use super::text::escaped;
+use crate::output::{StorageError, atomic_file};
+use crate::run::{Frame, Record};
+
+const PAGE: &str = include_str!("browser/page.html");
+const STYLE: &str = include_str!("browser/page.css");
+/// The program of the page. The files share one scope; each uses only what stands before it.
+const PROGRAM: [&str; 11] = [
+    include_str!("browser/record.js"),
+    include_str!("browser/numbers.js"),
+    include_str!("browser/colours.js"),
+    include_str!("browser/scale.js"),
+    include_str!("browser/panel.js"),
+    include_str!("browser/curve.js"),
+    include_str!("browser/history.js"),
+    include_str!("browser/trace.js"),
+    include_str!("browser/tables.js"),
+    include_str!("browser/player.js"),
+    include_str!("browser/page.js"),
+];
+
+/// Why a page could not be made.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+#[allow(missing_docs)] // each message names its fields
+pub enum PageError {
+    /// The name of the file does not end in `.html`.
+    #[error("{}: the name of a page ends in .html", .path.display())]
+    Format { path: PathBuf },
+    /// The record holds no state.
+    #[error("the run has no saved state to show: run the scene again")]
+    NoFrames,
+    /// The file could not be written, or the frames do not fit together.
+    #[error(transparent)]
+    Storage(#[from] StorageError),
+}
+
+/// Writes the page of `record` to `path`; an existing file is replaced only if `replace`.
+/// # Errors
+/// [`PageError`]; the target is then as it was.
+pub fn view(record: &Record, path: &Path, replace: bool) -> Result<(), PageError> {
+    if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("html")) {
+        return Err(PageError::Format { path: path.to_path_buf() });
+    }
+    Ok(atomic_file::write(path, html(record)?.as_bytes(), replace)?)
+}
+
+/// The page of `record`.
+/// # Errors
+/// [`PageError::NoFrames`], or [`StorageError::Ragged`] if a frame is not like the last one.
+pub fn html(record: &Record) -> Result<String, PageError> {
+    check(record)?;
+    let payload = Payload::new(record);
+    let title = escaped(&record.title);
+    let mut parts = PAGE.split("{{");
+    let mut document = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let (name, text) = part.split_once("}}").unwrap_or((part, ""));
+        match name {
+            "title" => document.push_str(&title),
+            "style" => document.push_str(STYLE),
+            "program" => PROGRAM.iter().for_each(|file| document.push_str(file)),
+            "summary" => document.push_str(&payload.summary),
+            "positions" => document.push_str(&payload.positions),
+            "fields" => document.push_str(&payload.fields),
+            "history" => document.push_str(&payload.history),
+            "steps" => document.push_str(&payload.steps),
+            _ => unreachable!("page.html asks for {name}"),
+        }
+        document.push_str(text);
+    }
+    Ok(document)
+}
+
+/// Frames that do not fit together would be shown in each other's place.
+fn check(record: &Record) -> Result<(), PageError> {
+    if record.frames.is_empty() {
+        return Err(PageError::NoFrames);
+    }
+    let nodes = record.nodes();
+    for (index, frame) in record.frames.iter().enumerate() {
+        for (item, found, expected) in lengths(record, frame, nodes) {
+            if found != expected {
+                return Err(StorageError::Ragged { item, index, found, expected }.into());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What a frame holds, how many values it has and should have.
+fn lengths<'a>(
+    record: &'a Record,
+    frame: &'a Frame,
+    nodes: usize,
+) -> impl Iterator<Item = (&'static str, usize, usize)> + 'a {
+    let fields = |item, fields: &'a [Vec<f64>]| fields.iter().map(move |field| (item, field.len(), nodes));
+    [
+        ("energy_terms", frame.energy_terms.len(), record.energy_terms.len()),
+        ("mass", frame.mass.len(), record.densities.len()),
+        ("density", frame.density.len(), record.densities.len()),
+        ("fields", frame.fields.len(), record.fields.len()),
+        ("diagnostics", frame.diagnostics.len(), record.diagnostics.len()),
+        ("position", frame.position.len(), nodes),
+        ("curvature", frame.curvature.len(), nodes),
+        ("metric", frame.metric.len(), nodes),
+        ("normal_velocity", frame.normal_velocity.len(), nodes),
+    ]
+    .into_iter()
+    .chain(fields("density", &frame.density))
+    .chain(fields("fields", &frame.fields))
+}

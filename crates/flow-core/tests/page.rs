@@ -1,0 +1,164 @@
+//! Pages for the browser: nothing in a record can break out of its place, and odd records are shown.
+#![allow(clippy::unwrap_used)] // a failed test may panic
+
+mod synthetic;
+
+use std::fs;
+use std::path::PathBuf;
+
+use flow_core::output::StorageError;
+use flow_core::output::page::{PageError, html, view};
+use flow_core::run::{Record, StepLog, StopReason};
+
+/// Everything that has ended a text before its time.
+const HOSTILE: &str =
+    "</title></script><!--<script>alert(1)</script> \" ' ` & \\ ${x} \0 \u{7} \u{202e}\u{2066}\u{2028} ]]>";
+
+/// The page of `record`; it stays as `name`.html if `CURVEFLOW_KEEP_PAGES` names a folder, for the tests in a browser.
+fn kept(record: &Record, name: &str) -> String {
+    let page = html(record).unwrap();
+    if let Some(folder) = std::env::var_os("CURVEFLOW_KEEP_PAGES").map(PathBuf::from) {
+        fs::create_dir_all(&folder).unwrap();
+        fs::write(folder.join(name).with_extension("html"), &page).unwrap();
+    }
+    page
+}
+
+/// The content of the element that starts with `tag`, up to the first `end`, as a browser finds it.
+fn content<'a>(page: &'a str, tag: &str, end: &str) -> &'a str {
+    page.split_once(tag).unwrap().1.split_once(end).unwrap().0
+}
+
+fn summary(page: &str) -> &str {
+    content(page, "id=\"summary\">", "</script")
+}
+
+/// The page without its data: markup, style and program.
+fn frame_of(page: &str) -> String {
+    let mut rest = page.to_owned();
+    for id in ["summary", "positions", "fields", "values", "steps"] {
+        let data = content(page, &format!("id=\"{id}\">"), "</script").to_owned();
+        rest = rest.replace(&format!("id=\"{id}\">{data}<"), &format!("id=\"{id}\"><"));
+    }
+    rest
+}
+
+fn hostile() -> Record {
+    let mut record = synthetic::record(3, 16, &[HOSTILE]);
+    for text in [&mut record.title, &mut record.scene, &mut record.resolved_scene] {
+        HOSTILE.clone_into(text);
+    }
+    for names in [&mut record.energy_terms, &mut record.fields, &mut record.diagnostics] {
+        names.fill(HOSTILE.to_owned());
+    }
+    record.stop_reason = StopReason::Failed(HOSTILE.to_owned());
+    record
+}
+
+#[test]
+fn hostile_texts_stay_texts() {
+    let page = kept(&hostile(), "hostile");
+    let tame = html(&Record { title: "tame".to_owned(), ..synthetic::record(3, 16, &["tame"]) }).unwrap();
+    // As many elements, in the same places, as in any other page.
+    let title = "&lt;/title&gt;&lt;/script&gt;&lt;!--&lt;script&gt;alert(1)&lt;/script&gt; &quot; ' ` &amp; \\ ${x} \
+                 ␀ ␇ ⟨U+202E⟩⟨U+2066⟩⟨U+2028⟩ ]]&gt;";
+    assert_eq!(frame_of(&page).replace(title, "tame"), frame_of(&tame));
+    assert!(!summary(&page).contains(['<', '>', '&', '\0', '\u{7}', '\u{202e}', '\u{2066}', '\u{2028}']));
+    let scene = r#""scene":"\u003c/title\u003e\u003c/script\u003e\u003c!--\u003cscript\u003ealert(1)\u003c/script\u003e \" ' ` \u0026 \\ ${x} ␀ ␇ ⟨U+202E⟩⟨U+2066⟩⟨U+2028⟩ ]]\u003e","#;
+    assert!(summary(&page).contains(scene));
+}
+
+#[test]
+fn the_page_asks_for_nothing_from_outside() {
+    let page = html(&synthetic::record(2, 16, &["protein"])).unwrap();
+    assert!(page.contains(
+        "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:"
+    ));
+    for word in [
+        "http:",
+        "https:",
+        "//www",
+        "src=",
+        "@import",
+        "url(",
+        "fetch(",
+        "XMLHttpRequest",
+        "import(",
+        "innerHTML",
+        "{{",
+    ] {
+        assert!(!page.contains(word), "{word}");
+    }
+    // The five data elements, and the program, which no word of its own may end.
+    assert_eq!(page.matches("</script").count(), 6);
+}
+
+#[test]
+fn what_is_not_a_number_is_kept_as_such() {
+    let mut record = synthetic::record(2, 1, &["protein"]);
+    record.frames[1].position[0] = [f64::NAN, 1.0];
+    record.frames[0].energy = f64::NAN;
+    let page = html(&record).unwrap();
+    let positions = content(&page, "id=\"positions\">", "</script");
+    // Bytes 00 00 c0 7f (NaN) and 00 00 80 3f (1) after the zero that ends the first frame.
+    assert!(positions.ends_with("AAAAAMB/AACAPw=="), "{positions}");
+    assert!(summary(&page).contains(r#"["energy, first → last",[null,"#));
+}
+
+/// A quarter of the nodes has no position, another no density: what is shown of them is for the tests in a browser.
+#[test]
+fn gaps_are_kept() {
+    let mut record = synthetic::record(3, 64, &["protein"]);
+    record.frames[1] = record.frames[0].clone();
+    record.frames[1].position[..16].fill([f64::NAN; 2]);
+    record.frames[1].density[0][32..48].fill(f64::NAN);
+    let page = kept(&record, "gaps");
+    assert_eq!(content(&page, "id=\"positions\">", "</script").len(), 3 * 64 * 8 * 4 / 3);
+}
+
+#[test]
+fn one_frame_is_a_page() {
+    let mut record = synthetic::record(1, 64, &[]);
+    record.steps = StepLog::default();
+    let page = kept(&record, "one-frame");
+    assert!(summary(&page).contains(r#""frames":1,"nodes":64,"#));
+    assert_eq!(content(&page, "id=\"steps\">", "</script"), "");
+}
+
+/// 16 (d + 2) n / 3 + 32 h / 3 bytes per frame, as the documentation of the module says.
+#[test]
+fn a_frame_takes_as_many_bytes_as_stated() {
+    let nodes = 300;
+    let size = |frames| html(&synthetic::record(frames, nodes, &["protein"])).unwrap().len();
+    // Curvature, metric, normal velocity, one density, one field; eight values, two terms, a mass, a distance.
+    let (fields, values) = (5, 12);
+    let stated = 16 * (fields + 2) * nodes / 3 + 32 * values / 3;
+    // The synthetic run has a step for every frame.
+    let step = 64 / 3;
+    let measured = (size(103) - size(13)) / 90;
+    assert!(measured.abs_diff(stated + step) <= 2, "{measured} bytes, stated {stated}");
+    let mut bare = synthetic::record(1, 2, &[]);
+    bare.scene.clear();
+    assert!(html(&bare).unwrap().len() < 100_000);
+}
+
+#[test]
+fn a_page_has_its_name_and_rectangular_frames() {
+    let path = std::env::temp_dir().join(format!("curveflow-page-{}.html", std::process::id()));
+    let mut record = synthetic::record(3, 16, &["protein"]);
+    assert!(matches!(view(&record, &path.with_extension("h5"), true), Err(PageError::Format { .. })));
+    view(&record, &path, false).unwrap();
+    let again = view(&record, &path, false);
+    let written = fs::read_to_string(&path).unwrap();
+    fs::remove_file(&path).unwrap();
+    assert!(matches!(again, Err(PageError::Storage(StorageError::Exists { .. }))));
+    assert_eq!(written, html(&record).unwrap());
+    record.frames[1].density[0].pop();
+    let ragged = html(&record);
+    assert!(matches!(
+        ragged,
+        Err(PageError::Storage(StorageError::Ragged { item: "density", index: 1, found: 15, expected: 16 }))
+    ));
+    record.frames.clear();
+    assert!(matches!(html(&record), Err(PageError::NoFrames)));
+}
