@@ -177,6 +177,8 @@ class Result:
           compressibility ε that is nearly incompressible has the density 1 + ερ̄; in density / unit of ε;
         - ``membrane_flux``: flux -∇ρ̄ of that membrane along the tangent, in density / unit of ε / length (F11);
         - ``energy_density``: energy per length of the local terms, in energy / length (D3).
+        - ``energy_density_bending``, …: the same of each local term (``energy-densities``).
+        - ``normal_velocity_bending``, …: what each term adds to the normal velocity (``normal-velocities``).
 
         ``tangential_velocity`` and ``membrane_flux`` are at the nodes if ``accuracy.derivative`` is ``"fourier"``, the
         default, else halfway between each node and the next.

@@ -7,7 +7,7 @@ use flow_core::run::scene::OutputField;
 use flow_core::run::{Frame, Quiet, Record, Scene, SetupError, run};
 
 const ALL: &str = "output = { frames = 2, fields = ['normal-force', 'tangential-velocity', 'excess-density', \
-                   'membrane-flux', 'energy-density', 'normal-force'] }";
+                   'membrane-flux', 'energy-density', 'energy-densities', 'normal-velocities', 'normal-force'] }";
 
 fn record(text: &str) -> Record {
     run(&Scene::parse(text, "test.toml").unwrap(), &mut Quiet).unwrap()
@@ -34,7 +34,9 @@ fn a_circle_has_the_fields_of_a_circle() {
         {ALL}
         "
     ));
-    assert_eq!(record.fields.len(), OutputField::ALL.len(), "each once: {:?}", record.fields);
+    // Each once, and one field for the one term.
+    assert_eq!(record.fields.len(), OutputField::ALL.len(), "{:?}", record.fields);
+    assert!(record.fields.contains(&"energy_density_bending".to_owned()), "{:?}", record.fields);
     assert!(record.diagnostics.is_empty());
     assert_eq!(record.frames.len(), 3);
     for frame in &record.frames {
@@ -75,6 +77,50 @@ fn the_energy_density_integrates_to_the_local_terms() {
             .sum();
         // Slopes of the sawtooth, which 256 nodes leave on the trillium, are in the energy but not in its density.
         assert!((total / local - 1.0).abs() < 1e-6, "{total} ≠ {local}");
+    }
+}
+
+/// In every gauge and under every mobility.
+#[test]
+fn the_parts_of_the_terms_add_up() {
+    for (gauge, mobility) in
+        [("scaled-arc-length", "identity"), ("co-moving", "incompressible"), ("co-moving", "area-preserving")]
+    {
+        let record = record(&format!(
+            "
+            curve.shape = 'trillium'
+            density = [{{ name = 'protein', initial = '0.5 + 0.1*cos(4*pi*s)', mobility = 'diffusion' }}]
+            energy.bending.rigidity = 0.7
+            energy.regularization.delta = 0.01
+            energy.length = {{ penalty = 3.0, target_ratio = 1.1 }}
+            energy.area.pressure = 0.2
+            energy.adhesion.kernel = 'exp(-4*q)'
+            flow = {{ gauge = '{gauge}', normal_mobility = '{mobility}' }}
+            time = {{ end = 1e-3, stop_at_equilibrium = false }}
+            accuracy.nodes = 256
+            {ALL}
+            "
+        ));
+        let parts = |frame: &Frame, prefix: &str| -> Vec<f64> {
+            let named = record.fields.iter().zip(&frame.fields).filter(|(name, _)| name.starts_with(prefix));
+            let mut sum = vec![0.0; record.nodes()];
+            for (_, values) in named {
+                sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
+            }
+            sum
+        };
+        assert_eq!(record.fields.iter().filter(|name| name.starts_with("normal_velocity_")).count(), 5);
+        assert_eq!(record.fields.iter().filter(|name| name.starts_with("energy_density_")).count(), 2);
+        for frame in &record.frames {
+            let largest = frame.normal_velocity.iter().fold(0.0_f64, |largest, v| largest.max(v.abs()));
+            for (sum, v) in parts(frame, "normal_velocity_").iter().zip(&frame.normal_velocity) {
+                assert!((sum - v).abs() < 1e-9 * largest, "{gauge}, {mobility}: {sum} ≠ {v}");
+            }
+            let density = field(&record, frame, OutputField::EnergyDensity);
+            for (sum, e) in parts(frame, "energy_density_").iter().zip(density) {
+                assert!((sum - e).abs() <= 1e-12 * e.abs(), "{gauge}, {mobility}: {sum} ≠ {e}");
+            }
+        }
     }
 }
 

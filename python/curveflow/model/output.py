@@ -21,11 +21,19 @@ class Output(Table):
     times: Numbers | None = None
     """Increasing times, each in [0, end]; kept as a tuple."""
     fields: Sequence[
-        Literal["normal-force", "tangential-velocity", "excess-density", "membrane-flux", "energy-density"]
+        Literal[
+            "normal-force",
+            "tangential-velocity",
+            "excess-density",
+            "membrane-flux",
+            "energy-density",
+            "energy-densities",
+            "normal-velocities",
+        ]
     ] = ()
     """Fields to save besides those that every frame holds; kept as a tuple. ``normal-force``, ``tangential-velocity``,
     ``excess-density`` and ``membrane-flux`` of the membrane that an incompressible curve stands for (THEORY.md, F11),
-    ``energy-density`` of the local terms."""
+    ``energy-density`` of the local terms, ``energy-densities`` of each of them, ``normal-velocities`` of each term."""
 
     def __post_init__(self) -> None:
         Table.__post_init__(self)

@@ -32,8 +32,12 @@ impl GradientFlow {
         let (nodes, length) = (self.layout().nodes(), self.current().length());
         let kappa = self.current().at_nodes(0).to_vec();
         let right: Vec<f64> = kappa.iter().zip(self.normal_force()).map(|(kappa, f)| -kappa * f).collect();
+        let metric = self.current().moving_metric().cloned();
         let (grid, derivative) = self.grid_and_derivative();
         let mut helmholtz = CurveHelmholtz::new(derivative, nodes);
+        if let Some(metric) = &metric {
+            helmholtz.follow(metric);
+        }
         helmholtz.set(&kappa, length)?;
         let (mut density, mut flux) = (vec![0.0; nodes], vec![0.0; nodes]);
         helmholtz.solve(&right, &mut density);
@@ -43,7 +47,7 @@ impl GradientFlow {
             *value *= -symbol / length;
         }
         grid.synthesise(&spectrum, &mut flux);
-        if let Some(grading) = derivative.grading() {
+        if let Some(grading) = metric.as_ref().or(derivative.grading().map(AsRef::as_ref)) {
             multiply(&mut flux, grading.inverse_at_midpoints());
         }
         Ok(ExcessDensity { density, flux })

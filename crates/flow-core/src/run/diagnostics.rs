@@ -4,6 +4,7 @@ use super::energy_density::EnergyDensity;
 use super::energy_terms::{Initial, energy_terms};
 use super::scene::{DensityMobility, NormalMobility, OutputField, Scene};
 use super::setup_error::SetupError;
+use super::term_parts::TermParts;
 use crate::flow::{Carried, EnergySum, ExcessDensity, FlowMap, GradientFlow, Incompressible};
 use crate::geometry::vectors::mean;
 use crate::geometry::{Layout, PeriodicGrid};
@@ -17,6 +18,7 @@ const OF_THE_MEMBRANE: [&str; 2] = ["incompressible_distance", "velocity_residua
 pub struct Diagnostics {
     fields: Vec<OutputField>,
     energy_density: Option<EnergyDensity>,
+    parts: TermParts,
     /// The flow of the energy without the membrane term, made incompressible.
     incompressible: Option<GradientFlow>,
     membrane: Option<MembraneTerm>,
@@ -64,6 +66,7 @@ impl Diagnostics {
         let density =
             fields.contains(&OutputField::EnergyDensity).then(|| energy_terms(scene, initial, nodes));
         Ok(Self {
+            parts: TermParts::new(scene, initial, layout, derivative)?,
             energy_density: density.transpose()?.map(|terms| EnergyDensity::new(terms, layout)),
             incompressible: base.transpose()?,
             membrane,
@@ -74,7 +77,11 @@ impl Diagnostics {
     /// Names of the fields, in the order of the scene: its choices, spelled as the other names of a record are.
     #[must_use]
     pub fn field_names(&self) -> Vec<String> {
-        self.fields.iter().map(|field| field.name().replace('-', "_")).collect()
+        let names = |field: &OutputField| match field {
+            OutputField::EnergyDensities | OutputField::NormalVelocities => self.parts.names(*field),
+            _ => vec![field.name().replace('-', "_")],
+        };
+        self.fields.iter().flat_map(names).collect()
     }
 
     /// Names of the values per frame.
@@ -98,6 +105,14 @@ impl Diagnostics {
         let mut fields = Vec::new();
         for field in &self.fields {
             fields.push(match field {
+                OutputField::EnergyDensities => {
+                    fields.extend(self.parts.densities(flow.current()));
+                    continue;
+                }
+                OutputField::NormalVelocities => {
+                    fields.extend(self.parts.velocities(y));
+                    continue;
+                }
                 OutputField::NormalForce => flow.normal_force().to_vec(),
                 OutputField::TangentialVelocity => {
                     let mut w = vec![0.0; nodes];

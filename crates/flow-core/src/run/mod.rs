@@ -21,6 +21,7 @@ mod setup;
 mod setup_error;
 mod simulation;
 mod switches;
+mod term_parts;
 pub mod tradeoff;
 
 pub use crate::integrator::{Counters, Rejections};

@@ -72,6 +72,10 @@ names! {
         MembraneFlux = "membrane-flux",
         /// Energy per length of the local terms: not of functions of the length or of the positions.
         EnergyDensity = "energy-density",
+        /// The same of each local term: `energy_density_bending`, …
+        EnergyDensities = "energy-densities",
+        /// 𝓑f of each term, with its force f: `normal_velocity_bending`, … They add up to the normal velocity.
+        NormalVelocities = "normal-velocities",
     }
 }
 
