@@ -6,6 +6,12 @@
 //! sawtooth would grow. The gradient is pulled back by its exact transpose, so it is the exact
 //! derivative of the discrete sum. Built only if a term has it. See `THEORY.md`, eq. (D7).
 
+mod metric;
+mod motion;
+mod sawtooth;
+
+use sawtooth::Sawtooth;
+
 use super::curve_fields::CurveFields;
 use super::energy_sum::IntrinsicGradient;
 use crate::energies::{EnergyTerm, Order, ShapeFields};
@@ -30,32 +36,6 @@ pub struct ShapeEnergy {
     spectrum: Vec<Complex64>,
     /// Index of the metric among the fields, if the state holds it.
     metric: Option<usize>,
-}
-
-/// The sawtooth of K, whose angle has the mean square K̂²/λ for the symbol λ of −D₋D₊: c = exp(−K̂²/2λ).
-#[derive(Clone, Copy, Debug)]
-struct Sawtooth {
-    mode: usize,
-    /// 1/λ.
-    square: f64,
-    /// K̂ of the sawtooth.
-    turning: f64,
-}
-
-impl Sawtooth {
-    fn shortening(self) -> f64 {
-        (-0.5 * self.square * self.turning * self.turning).exp()
-    }
-
-    /// c′/c.
-    fn first(self) -> f64 {
-        -self.square * self.turning
-    }
-
-    /// c″/c.
-    fn second(self) -> f64 {
-        self.square * (self.square * self.turning * self.turning - 1.0)
-    }
 }
 
 /// What the second derivative needs.
@@ -256,95 +236,6 @@ impl ShapeEnergy {
             *angle = c[i] * by_y[i] - s[i] * by_x[i] + stretch(i) * across[i] - *angle * along[i];
         }
         self.pull_back_to_turning(out);
-    }
-
-    /// Motion of tangents and positions under the motion `v` of the state; that of the tangent angle is in `angle`.
-    fn embed_motion(&mut self, v: &[f64]) {
-        let (nodes, length) = (self.grid.nodes() as f64, self.frozen.shape.length);
-        let modes = self.grid.modes();
-        self.motion.length = v[self.layout.length_index()];
-        if let Some(field) = self.metric {
-            // δw = (δg − w δL)/L.
-            self.spectrum.copy_from_slice(&self.layout.spectra(v)[field * modes..(field + 1) * modes]);
-            self.motion.length = self.spectrum[0].re;
-            self.grid.synthesise(&self.spectrum, &mut self.motion.weight);
-            for (change, weight) in self.motion.weight.iter_mut().zip(&self.frozen.shape.weight) {
-                *change = (*change - weight * self.motion.length) / length;
-            }
-        }
-        self.spectrum.copy_from_slice(&self.layout.spectra(v)[..self.grid.modes()]);
-        let turning_per_node = self.spectrum[0].re / nodes;
-        self.grid.integrate(&mut self.spectrum);
-        self.grid.synthesise(&self.spectrum, &mut self.angle);
-        for (i, angle) in self.angle.iter_mut().enumerate() {
-            *angle += turning_per_node * i as f64;
-        }
-        let sawtooth = self.frozen.sawtooth;
-        let shortening = sawtooth.map_or(0.0, |at| at.first() * self.layout.spectra(v)[at.mode].re);
-        let [c, s] = self.frozen.shape.tangents();
-        for (i, angle) in self.angle.iter().enumerate() {
-            let stretch = match self.metric {
-                Some(_) => shortening + self.motion.weight[i] / self.frozen.shape.weight[i],
-                None => shortening,
-            };
-            self.motion.tangent[0][i] = stretch * c[i] - s[i] * angle;
-            self.motion.tangent[1][i] = stretch * s[i] + c[i] * angle;
-        }
-        let stretch = self.motion.length / length;
-        for axis in 0..2 {
-            self.grid.transform(&self.motion.tangent[axis], &mut self.spectrum);
-            self.grid.integrate(&mut self.spectrum);
-            self.grid.synthesise(&self.spectrum, &mut self.motion.position[axis]);
-            let positions = self.motion.position[axis].iter_mut().zip(&self.frozen.shape.position[axis]);
-            positions.for_each(|(motion, x)| *motion = length * *motion + stretch * x);
-        }
-    }
-
-    /// The derivative by g: that by L at fixed w, and with ω = ∂𝓕/∂w the rest (ω − ⟨wω⟩)/L. The part along the tangents is in
-    /// `values`.
-    fn pull_back_to_metric(&mut self, field: usize, order: Order, gradient: &mut IntrinsicGradient) {
-        let (weight, length) = (&self.shape.weight, self.shape.length);
-        for ((by_weight, along), weight) in self.dual.weight.iter_mut().zip(&self.values).zip(weight) {
-            *by_weight += along / weight;
-        }
-        let mean = mean_of_product(&self.dual.weight, weight);
-        if order >= Order::Hessian {
-            self.frozen.by_weight.copy_from_slice(&self.dual.weight);
-            self.frozen.mean_by_weight = mean;
-        }
-        for (value, by_weight) in self.values.iter_mut().zip(&self.dual.weight) {
-            *value = gradient.by_length + (by_weight - mean) / length;
-        }
-        gradient.by_length = 0.0;
-        self.add_to_metric(field, gradient);
-    }
-
-    /// Change of the derivative by g, with that by L in `out`; the motion of the tangent angle is still in `angle`.
-    fn move_by_metric(&mut self, field: usize, shortening: f64, out: &mut IntrinsicGradient) {
-        let (frozen, motion, length) = (&self.frozen, &self.motion, self.frozen.shape.length);
-        let ([c, s], [by_x, by_y]) = (frozen.shape.tangents(), self.dual.tangents());
-        let mut mean = 0.0;
-        for i in 0..self.values.len() {
-            let (weight, change) = (frozen.shape.weight[i], motion.weight[i]);
-            let along = frozen.along_tangent[i];
-            let turned = self.angle[i] * frozen.across_tangent[i] + c[i] * by_x[i] + s[i] * by_y[i];
-            self.values[i] = self.dual.weight[i] + (turned + shortening * along) / weight;
-            mean += weight * self.values[i] + change * frozen.by_weight[i];
-        }
-        mean /= self.values.len() as f64;
-        let shrink = motion.length / length;
-        for (value, by_weight) in self.values.iter_mut().zip(&frozen.by_weight) {
-            *value = out.by_length + (*value - mean - shrink * (by_weight - frozen.mean_by_weight)) / length;
-        }
-        out.by_length = 0.0;
-        self.add_to_metric(field, out);
-    }
-
-    fn add_to_metric(&mut self, field: usize, out: &mut IntrinsicGradient) {
-        let modes = self.grid.modes();
-        self.grid.transform(&self.values, &mut self.spectrum);
-        let by_metric = &mut out.spectra[field * modes..(field + 1) * modes];
-        by_metric.iter_mut().zip(&self.spectrum).for_each(|(sum, value)| *sum += value);
     }
 
     /// Derivative by tangents += (LP)ᵀ derivative by positions = −LP derivative by positions.

@@ -4,6 +4,8 @@
 //! t − h … t − kh, which gives y = ỹ + (h/α)(f(y) − ỹ′) with α = 1 + ½ + … + 1/k. See `THEORY.md`, eq. (I5);
 //! Brenan, Campbell & Petzold, Numerical Solution of Initial-Value Problems in DAEs (1996), chapter 5.
 
+mod control;
+
 use super::error_norm::ErrorNorm;
 use super::history::{History, MOST_POINTS, Weights, lagrange};
 use super::integrals::Integrals;
@@ -19,13 +21,6 @@ const LOCAL_SHARE: f64 = 4.0;
 /// Newton's method is solved to this part of the local tolerance: the square of its error, weighted by the
 /// stiffness, enters the dissipation and with it the energy balance.
 const NEWTON_SHARE: f64 = 0.2;
-
-/// Safety factors on the error of order k − 1, k, k + 1: a change of order must pay.
-const BIAS: [f64; 3] = [4.0, 4.0, 6.0];
-/// Growth below this factor is not worth a new step size.
-const LEAST_GROWTH: f64 = 1.2;
-const MOST_GROWTH: f64 = 2.5;
-const FIRST_GROWTH: f64 = 1e4;
 
 /// Local error for which the global error is about the tolerance.
 fn local_tolerance(tolerance: f64) -> f64 {
@@ -163,63 +158,6 @@ impl Bdf {
         let alpha_0: f64 = -(0..self.order).map(alpha).sum::<f64>();
         let alpha_s = -self.leading_coefficient();
         last.max((last + alpha_s - alpha_0).abs())
-    }
-
-    /// Estimate of the local error of order `order` at constant step: ‖h^{k+1} y^{(k+1)}‖/(k + 1).
-    fn error_of_order(&mut self, order: usize) -> f64 {
-        let time = self.candidate_time();
-        let weights = self.predictor(order, 0);
-        self.history.combine(&weights.value, order + 1, &mut self.difference);
-        for (difference, y) in self.difference.iter_mut().zip(&self.candidate) {
-            *difference = y - *difference;
-        }
-        let mut factor = 1.0 / (order + 1) as f64;
-        for back in 0..=order {
-            factor *= self.step / (time - self.history.times()[back]) * (back + 1) as f64;
-        }
-        factor * self.norm.norm(&self.difference)
-    }
-
-    /// Ratio of the next step size that keeps an error at the tolerance.
-    fn growth(&self, error: f64, order: usize, bias: f64) -> f64 {
-        1.0 / ((bias * error / self.tolerance).powf(1.0 / (order + 1) as f64) + 1e-6)
-    }
-
-    /// Order and step size after an accepted candidate (which is not yet in the history).
-    fn plan(&mut self) {
-        let order = self.order;
-        let error = self.error_of_order(order);
-        let mut best = (order, self.growth(error, order, BIAS[1]));
-        if self.steps_at_order > order {
-            if order > 1 {
-                let lower = self.error_of_order(order - 1);
-                let growth = self.growth(lower, order - 1, BIAS[0]);
-                if growth > best.1 {
-                    best = (order - 1, growth);
-                }
-            }
-            if order < HIGHEST_ORDER && self.history.len() > order + 1 {
-                let higher = self.error_of_order(order + 1);
-                let growth = self.growth(higher, order + 1, BIAS[2]);
-                if growth > best.1 {
-                    best = (order + 1, growth);
-                }
-            }
-        }
-        let most = if self.accepted == 0 { FIRST_GROWTH } else { MOST_GROWTH };
-        let mut growth = best.1.min(most);
-        if self.failures > 0 {
-            growth = growth.min(1.0);
-        }
-        if growth > 1.0 && growth < LEAST_GROWTH {
-            growth = 1.0;
-            best.0 = order;
-        }
-        if best.0 != order {
-            self.steps_at_order = 0;
-        }
-        self.order = best.0;
-        self.step *= growth.max(0.5);
     }
 }
 

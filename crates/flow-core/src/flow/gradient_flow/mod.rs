@@ -1,5 +1,7 @@
 //! The right-hand side −`𝓚(X)∇𝓕_h` and the implicit operator −𝓚 Hess `𝓕_h`. See `THEORY.md`, eqs. (F6) and (F7).
 
+mod turning;
+
 use std::sync::Arc;
 
 use super::curve_fields::CurveFields;
@@ -116,16 +118,6 @@ impl GradientFlow {
         self.map.grid_and_derivative()
     }
 
-    /// Mean of the periodic antiderivative of nodal values of mean zero that starts from zero at node 0.
-    pub fn mean_antiderivative(&mut self, values: &[f64]) -> f64 {
-        let (grid, _) = self.map.grid_and_derivative();
-        grid.transform(values, &mut self.spectrum);
-        grid.integrate(&mut self.spectrum);
-        // The integral has mean zero: less its value at node 0, the sum of its coefficients.
-        let modes = self.spectrum.iter().enumerate();
-        -modes.map(|(mode, value)| self.map.multiplicity(mode) * value.re).sum::<f64>()
-    }
-
     /// The grading of the nodes; none if they are uniform.
     #[must_use]
     pub fn grading(&self) -> Option<&Arc<Grading>> {
@@ -233,45 +225,6 @@ impl GradientFlow {
         self.write_rates(true, out);
         for value in out.iter_mut() {
             *value = -*value;
-        }
-    }
-
-    /// Replaces the spectrum `turning` of a rate of K by scratch, and writes the normal velocity V that makes it to leading
-    /// order, K = −|Γ|`Δ_s` V, at the frozen state.
-    pub(super) fn velocity_of_turning(&mut self, turning: &mut [Complex64], velocity: &mut [f64]) {
-        let length = self.frozen.length();
-        for value in turning.iter_mut() {
-            *value *= length;
-        }
-        if let Some(graded) = self.map.graded_laplacian() {
-            if let Some(metric) = self.frozen.moving_metric() {
-                graded.follow(metric);
-            }
-            graded.solve(turning);
-        } else {
-            let symbols = self.map.grid_and_derivative().1.minus_laplacian().iter();
-            for (value, symbol) in turning.iter_mut().zip(symbols) {
-                *value = if *symbol > 0.0 { *value / *symbol } else { Complex64::default() };
-            }
-        }
-        self.map.grid_and_derivative().0.synthesise(turning, velocity);
-    }
-
-    /// Adds `factor` times the rates of the densities under the normal velocity V that makes the curvature of the spectral
-    /// `state` its rate to leading order, K = −|Γ|`Δ_s` V, at the frozen state. Overwrites the gradient and the velocity.
-    pub(super) fn carry_densities(&mut self, state: &mut [f64], factor: f64) {
-        let layout = self.spectral_layout();
-        let modes = self.spectrum.len();
-        let (turning, densities) = layout.spectra_mut(state).split_at_mut(modes);
-        let (mut spectrum, mut velocity) =
-            (std::mem::take(&mut self.spectrum), std::mem::take(&mut self.velocity));
-        spectrum.copy_from_slice(turning);
-        self.velocity_of_turning(&mut spectrum, &mut velocity);
-        (self.spectrum, self.velocity) = (spectrum, velocity);
-        self.map.rates(&self.frozen, &self.velocity, &mut self.gradient.spectra);
-        self.map.grid_and_derivative().0.make_real(&mut self.gradient.spectra);
-        for (density, rate) in densities.iter_mut().zip(&self.gradient.spectra[modes..]) {
-            *density += rate * factor;
         }
     }
 

@@ -1,15 +1,16 @@
 //! The gradient flow of a closed curve as a problem for the integrator.
 
+mod memory;
+
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use serde::{Deserialize, Serialize};
-
-use super::invariants::{Invariants, KeptValues};
+use super::invariants::Invariants;
 use crate::flow::{GradientFlow, LinearSolver, Preconditioner, Rate};
 use crate::geometry::vectors::{mean_of_product, multiply};
 use crate::geometry::{Closure, Crossings, Embedding, Layout};
 use crate::integrator::{Finish, INTEGRALS, Problem};
+pub use memory::MembraneMemory;
 
 /// Index of ∫ dissipation dt among the integrals.
 pub const DISSIPATED: usize = 0;
@@ -42,17 +43,6 @@ pub struct Membrane {
     candidate_angle_rate: f64,
     /// The spectral state of the linearisation, and that of the factorisation with its γ.
     linearised: Vec<f64>,
-    factorised: (Vec<f64>, f64),
-}
-
-/// What a membrane knows besides its state.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct MembraneMemory {
-    may_turn_to_banded: bool,
-    mean_iterations: f64,
-    kept: KeptValues,
-    start_angle: f64,
-    placed: [f64; 3],
     factorised: (Vec<f64>, f64),
 }
 
@@ -137,39 +127,6 @@ impl Membrane {
         let Some(banded) = self.banded.take() else { return false };
         self.preconditioner = banded;
         true
-    }
-
-    /// What it takes to go on from here.
-    #[must_use]
-    pub fn memory(&self) -> MembraneMemory {
-        MembraneMemory {
-            may_turn_to_banded: self.banded.is_some(),
-            mean_iterations: self.mean_iterations,
-            kept: self.invariants.kept_values(),
-            start_angle: self.start_angle,
-            placed: self.placed,
-            factorised: self.factorised.clone(),
-        }
-    }
-
-    /// Goes on from `memory`, with the factorisation that it speaks of if that is `needed`; false if it does not fit.
-    pub fn resume(&mut self, memory: MembraneMemory, needed: bool) -> bool {
-        let (state, gamma) = memory.factorised;
-        if state.len() != self.flow.spectral_layout().len() || !self.invariants.set_kept_values(memory.kept) {
-            return false;
-        }
-        if !memory.may_turn_to_banded {
-            self.turn_to_banded();
-        }
-        self.mean_iterations = memory.mean_iterations;
-        self.start_angle = memory.start_angle;
-        self.placed = memory.placed;
-        if !needed {
-            return true;
-        }
-        let mut rate = vec![0.0; state.len()];
-        self.linearise(&state, &mut rate);
-        self.factorise(gamma)
     }
 
     /// Takes the metric of the spectral state `y`, if it is a field there, into the embedding; false if it is not positive.

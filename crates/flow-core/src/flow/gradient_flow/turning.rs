@@ -1,0 +1,55 @@
+//! From a rate of the curvature back to the motion that makes it.
+
+use super::GradientFlow;
+use crate::geometry::Complex64;
+
+impl GradientFlow {
+    /// Mean of the periodic antiderivative of nodal values of mean zero that starts from zero at node 0.
+    pub fn mean_antiderivative(&mut self, values: &[f64]) -> f64 {
+        let (grid, _) = self.map.grid_and_derivative();
+        grid.transform(values, &mut self.spectrum);
+        grid.integrate(&mut self.spectrum);
+        // The integral has mean zero: less its value at node 0, the sum of its coefficients.
+        let modes = self.spectrum.iter().enumerate();
+        -modes.map(|(mode, value)| self.map.multiplicity(mode) * value.re).sum::<f64>()
+    }
+
+    /// Replaces the spectrum `turning` of a rate of K by scratch, and writes the normal velocity V that makes it to leading
+    /// order, K = −|Γ|`Δ_s` V, at the frozen state.
+    pub(in crate::flow) fn velocity_of_turning(&mut self, turning: &mut [Complex64], velocity: &mut [f64]) {
+        let length = self.frozen.length();
+        for value in turning.iter_mut() {
+            *value *= length;
+        }
+        if let Some(graded) = self.map.graded_laplacian() {
+            if let Some(metric) = self.frozen.moving_metric() {
+                graded.follow(metric);
+            }
+            graded.solve(turning);
+        } else {
+            let symbols = self.map.grid_and_derivative().1.minus_laplacian().iter();
+            for (value, symbol) in turning.iter_mut().zip(symbols) {
+                *value = if *symbol > 0.0 { *value / *symbol } else { Complex64::default() };
+            }
+        }
+        self.map.grid_and_derivative().0.synthesise(turning, velocity);
+    }
+
+    /// Adds `factor` times the rates of the densities under the normal velocity V that makes the curvature of the spectral
+    /// `state` its rate to leading order, K = −|Γ|`Δ_s` V, at the frozen state. Overwrites the gradient and the velocity.
+    pub(in crate::flow) fn carry_densities(&mut self, state: &mut [f64], factor: f64) {
+        let layout = self.spectral_layout();
+        let modes = self.spectrum.len();
+        let (turning, densities) = layout.spectra_mut(state).split_at_mut(modes);
+        let (mut spectrum, mut velocity) =
+            (std::mem::take(&mut self.spectrum), std::mem::take(&mut self.velocity));
+        spectrum.copy_from_slice(turning);
+        self.velocity_of_turning(&mut spectrum, &mut velocity);
+        (self.spectrum, self.velocity) = (spectrum, velocity);
+        self.map.rates(&self.frozen, &self.velocity, &mut self.gradient.spectra);
+        self.map.grid_and_derivative().0.make_real(&mut self.gradient.spectra);
+        for (density, rate) in densities.iter_mut().zip(&self.gradient.spectra[modes..]) {
+            *density += rate * factor;
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! What a membrane must know to go on in another process.
+
+use serde::{Deserialize, Serialize};
+
+use super::super::invariants::KeptValues;
+use super::Membrane;
+use crate::integrator::Problem;
+
+/// What a membrane knows besides its state.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MembraneMemory {
+    may_turn_to_banded: bool,
+    mean_iterations: f64,
+    kept: KeptValues,
+    start_angle: f64,
+    placed: [f64; 3],
+    factorised: (Vec<f64>, f64),
+}
+
+impl Membrane {
+    /// What it takes to go on from here.
+    #[must_use]
+    pub fn memory(&self) -> MembraneMemory {
+        MembraneMemory {
+            may_turn_to_banded: self.banded.is_some(),
+            mean_iterations: self.mean_iterations,
+            kept: self.invariants.kept_values(),
+            start_angle: self.start_angle,
+            placed: self.placed,
+            factorised: self.factorised.clone(),
+        }
+    }
+
+    /// Goes on from `memory`, with the factorisation that it speaks of if that is `needed`; false if it does not fit.
+    pub fn resume(&mut self, memory: MembraneMemory, needed: bool) -> bool {
+        let (state, gamma) = memory.factorised;
+        if state.len() != self.flow.spectral_layout().len() || !self.invariants.set_kept_values(memory.kept) {
+            return false;
+        }
+        if !memory.may_turn_to_banded {
+            self.turn_to_banded();
+        }
+        self.mean_iterations = memory.mean_iterations;
+        self.start_angle = memory.start_angle;
+        self.placed = memory.placed;
+        if !needed {
+            return true;
+        }
+        let mut rate = vec![0.0; state.len()];
+        self.linearise(&state, &mut rate);
+        self.factorise(gamma)
+    }
+}
