@@ -22,12 +22,12 @@ export async function launch() {
   return chromium.launch({ executablePath, env, args: ["--no-sandbox"] });
 }
 
-/** Runs a shipped scene and makes its page; returns its path. */
-export function pageOf(scene) {
+/** Runs a shipped scene, with options of `curveflow run`, and makes its page; returns its path. */
+export function pageOf(scene, options = []) {
   mkdirSync(PAGES, { recursive: true });
   const curveflow = join(ROOT, "target", "release", "curveflow");
   const [result, page] = ["h5", "html"].map((kind) => join(PAGES, `${scene}.${kind}`));
-  execFileSync(curveflow, ["run", join(ROOT, "scenes", `${scene}.toml`), "-o", result, "--replace", "-q"]);
+  execFileSync(curveflow, ["run", join(ROOT, "scenes", `${scene}.toml`), "-o", result, "--replace", "-q", ...options]);
   execFileSync(curveflow, ["view", result, "-o", page, "--replace", "-q"]);
   return page;
 }

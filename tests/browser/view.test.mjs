@@ -95,19 +95,22 @@ onPage("arrows, Home and End choose a frame", () => threeFold, async (page) => {
 async function pointAtCurve(page) {
   const box = await page.locator("#curve").boundingBox();
   for (let x = 0.42; x > 0.1; x -= 0.02) {
-    await page.mouse.move(box.x + x * box.width, box.y + 0.47 * box.height);
+    const at = { x: box.x + x * box.width, y: box.y + 0.47 * box.height };
+    await page.mouse.move(at.x, at.y);
     await drawn(page);
-    if (await page.locator("#tip").isVisible()) return box;
+    if (await page.locator("#tip").isVisible()) return { box, at };
   }
   throw new Error("no node found");
 }
 
 onPage("a point of the curve shows its values and is marked in the trace", () => threeFold, async (page) => {
   await page.keyboard.press("End");
-  let box;
-  assert.deepEqual(await changes(page, async () => { box = await pointAtCurve(page); }), ["#curve", TRACE]);
+  let box, at;
+  assert.deepEqual(await changes(page, async () => { ({ box, at } = await pointAtCurve(page)); }), ["#curve", TRACE]);
   const text = await page.locator("#tip").textContent();
   for (const name of ["node ", "s = ", "position", "protein density ρ", "curvature κ", "metric g"]) assert.ok(text.includes(name), text);
+  const tip = await page.locator("#tip").boundingBox();
+  assert.ok(at.x < tip.x || at.x > tip.x + tip.width || at.y < tip.y || at.y > tip.y + tip.height, "the node is covered");
   const away = () => page.mouse.move(box.x + 5, box.y + 5);
   await away();
   await drawn(page);
@@ -145,6 +148,15 @@ for (const [scene, traces] of [["blend", ["curved density ρ", "flat density ρ"
     await page.close();
   });
 }
+
+test("fields of the scene can be chosen", async () => {
+  const { page, complaints } = await open(browser, pageOf("incompressible", ["--set", 'output.fields=["tangential-velocity"]']));
+  await page.locator("#field").selectOption({ label: "tangential-velocity" });
+  await drawn(page);
+  assert.ok((await page.locator("#curve").getAttribute("aria-label")).endsWith("coloured by tangential-velocity"));
+  assert.deepEqual(complaints, []);
+  await page.close();
+});
 
 for (const width of [320, 390, 700, 1600]) {
   for (const colorScheme of ["light", "dark"]) {

@@ -22,17 +22,17 @@ function change(changes) {
   redraw();
 }
 
-/** Shows the values of the node beside it, inside the figure. */
+/** Shows the values of the node in the corner that is farthest from it, so that it is never covered. */
 function showTip() {
   const tip = find("tip");
   tip.hidden = view.node === null;
   if (tip.hidden) return;
   tip.replaceChildren(tableOf(nodeRows(record, view.frame, view.node)).table);
   const [x, y] = curve.pixels(view.frame)(view.node);
-  const box = curve.panel.canvas;
-  const fit = (at, size, room) => Math.max(0, at + 16 + size > room ? at - 16 - size : at + 16);
-  tip.style.left = `${Math.min(fit(x, tip.offsetWidth, box.clientWidth), box.clientWidth - tip.offsetWidth)}px`;
-  tip.style.top = `${fit(y, tip.offsetHeight, box.clientHeight)}px`;
+  const { left, top, right, bottom } = curve.panel.frame;
+  const far = (at, size, from, to) => `${at > (from + to) / 2 ? from + 6 : Math.max(0, to - size - 6)}px`;
+  tip.style.left = far(x, tip.offsetWidth, left, right);
+  tip.style.top = far(y, tip.offsetHeight, top, bottom);
 }
 
 /** Lets a pointer choose a node: pointing shows it, a click keeps it, a click elsewhere lets it go. */
