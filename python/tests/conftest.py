@@ -1,9 +1,13 @@
+import signal
+
 import matplotlib
 import pytest
 
 import curveflow as cf
 
 matplotlib.use("Agg")
+# A shell starts background jobs with SIGINT ignored, and so would be Ctrl-C here and in the processes of the tests.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 CIRCLE = """
 title = "Circle"

@@ -51,6 +51,17 @@ fn summary(record: &Record) -> Vec<(String, Value)> {
         row("energy_balance", number(last.energy_balance));
         row("length_first", number(first.length));
         row("length_last", number(last.length));
+        row("crossings_last", number(last.crossings));
+        let changes = record.frames.windows(2).filter(|pair| pair[0].crossings != pair[1].crossings);
+        let events: Vec<Value> = changes
+            .map(|pair| {
+                let (before, now) = (pair[0].crossings, pair[1].crossings);
+                json!(format!("{before} → {now} crossings between t = {} and {}", pair[0].time, pair[1].time))
+            })
+            .collect();
+        if !events.is_empty() {
+            row("events", json!(events));
+        }
         for (i, name) in record.densities.iter().enumerate() {
             row(&format!("mass_{name}"), number(last.mass[i]));
             row(&format!("mass_drift_{name}"), number(relative_change(first.mass[i], last.mass[i])));
