@@ -151,9 +151,9 @@ for (const [scene, traces] of [["blend", ["curved density ρ", "flat density ρ"
 
 test("fields of the scene can be chosen", async () => {
   const { page, complaints } = await open(browser, pageOf("incompressible", ["--set", 'output.fields=["tangential-velocity"]']));
-  await page.locator("#field").selectOption({ label: "tangential-velocity" });
+  await page.locator("#field").selectOption({ label: "tangential_velocity" });
   await drawn(page);
-  assert.ok((await page.locator("#curve").getAttribute("aria-label")).endsWith("coloured by tangential-velocity"));
+  assert.ok((await page.locator("#curve").getAttribute("aria-label")).endsWith("coloured by tangential_velocity"));
   assert.deepEqual(complaints, []);
   await page.close();
 });
