@@ -27,4 +27,4 @@ pub use normal_mobility::{
     NormalMobility, SurfaceDiffusion,
 };
 pub use preconditioner::{LinearSolver, Preconditioner};
-pub use regrade::{Regraded, regrade};
+pub use regrade::{Regraded, Regrading, regrade};

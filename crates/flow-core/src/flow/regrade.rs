@@ -1,7 +1,9 @@
 //! From one gauge or grading to another: the fields of a state at other nodes of the same curve. See `THEORY.md`, eq. (F18).
 
 use super::gradient_flow::GradientFlow;
-use crate::geometry::{Closure, ClosureError, Complex64, PeriodicGrid};
+use crate::geometry::{
+    Closure, ClosureError, Complex64, Grading, PeriodicGrid, ScatteredPoints, SpectralLayout,
+};
 
 /// A state on other nodes.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,15 +14,15 @@ pub struct Regraded {
     pub energy_error: f64,
 }
 
-/// Passes of Newton's method; the start is within a node distance.
-const MOST_PASSES: usize = 50;
+/// Passes of Newton's method; the start is within the square of a node distance.
+const MOST_PASSES: usize = 20;
 /// Error of the fraction of the arc length that is rounding.
 const FOUND: f64 = 1e-15;
 
 /// The spectral `state` of the flow `from` on the nodes of the flow `to`, of the same energy and any gauge, grading and number
 /// of nodes. A metric that is a field starts as the grading of `to`. Turning number, masses and length are kept to rounding; the placement, a mean over the curve, is as it was.
 ///
-/// Allocates; meant for the moments between steps. Costs the product of the numbers of nodes.
+/// Allocates; meant for the moments between steps.
 ///
 /// # Shapes
 /// `state`: a spectral state of `from` (see [`crate::geometry::SpectralLayout`]); the result is one of `to`.
@@ -36,82 +38,114 @@ pub fn regrade(
     state: &[f64],
     turning_number: i32,
 ) -> Result<Regraded, ClosureError> {
-    let (old, new) = (from.spectral_layout(), to.spectral_layout());
-    let nodes = to.layout().nodes();
-    let fields = from.layout().fields();
-    assert_eq!(fields, to.layout().fields(), "the same densities");
     let energy = from.spectral_gradient(state);
-    let length = state[old.length_index()];
-    let grading = to.grading().cloned();
-    let uniform = || (0..nodes).map(|i| i as f64 / nodes as f64).collect();
-    let fractions: Vec<f64> = grading.as_ref().map_or_else(uniform, |grading| grading.fractions());
-    let parameters = parameters(from, &fractions);
-    let mut out = vec![0.0; new.len()];
-    let old_grid = PeriodicGrid::new(from.layout().nodes());
-    let mut grid = PeriodicGrid::new(nodes);
-    let weight = grading.as_ref().map_or_else(|| vec![1.0; nodes], |grading| grading.weight().to_vec());
-    for field in 0..fields {
-        let spectrum = from.current().spectrum(field);
-        let at = |s: &f64| series(&old_grid, spectrum, *s)[0];
-        let values: Vec<f64> =
-            parameters.iter().zip(&weight).map(|(s, weight)| length * weight * at(s)).collect();
-        let total = old.spectra(state)[field * old.modes()].re;
-        let spectrum = &mut new.spectra_mut(&mut out)[field * new.modes()..(field + 1) * new.modes()];
-        grid.transform(&values, spectrum);
-        let missing = total - spectrum[0].re;
-        let corrected: Vec<f64> = values.iter().zip(&weight).map(|(value, w)| value + missing * w).collect();
-        grid.transform(&corrected, spectrum);
-        spectrum[0] = Complex64::new(total, 0.0);
-    }
-    if let Some(metric) = to.layout().metric() {
-        let values: Vec<f64> = weight.iter().map(|weight| length * weight).collect();
-        let spectrum = &mut new.spectra_mut(&mut out)[metric * new.modes()..(metric + 1) * new.modes()];
-        grid.transform(&values, spectrum);
-        spectrum[0] = Complex64::new(length, 0.0);
-    }
-    out[new.length_index()] = length;
-    let turning = &mut new.spectra_mut(&mut out)[..new.modes()];
-    Closure::graded(nodes, grading).project(turning, length, turning_number, 0.0)?;
-    let energy_error = to.spectral_gradient(&out) - energy;
-    Ok(Regraded { state: out, energy_error })
+    let state = Regrading::new(from, to, turning_number).apply(from, state)?;
+    let energy_error = to.spectral_gradient(&state) - energy;
+    Ok(Regraded { state, energy_error })
 }
 
-/// Parameters of the nodes of `from` where the `fractions` of the arc length are reached.
-fn parameters(from: &GradientFlow, fractions: &[f64]) -> Vec<f64> {
-    let Some(grading) = from.current().grading() else { return fractions.to_vec() };
+/// The way from the nodes of one flow to those of another, for any number of states.
+#[derive(Debug)]
+pub struct Regrading {
+    points: ScatteredPoints,
+    grid: PeriodicGrid,
+    layouts: [SpectralLayout; 2],
+    fields: usize,
+    metric: Option<usize>,
+    weight: Vec<f64>,
+    closure: Closure,
+    turning_number: i32,
+}
+
+impl Regrading {
+    /// From the nodes of the state that `from` evaluated last to those of `to`.
+    #[must_use]
+    pub fn new(from: &GradientFlow, to: &GradientFlow, turning_number: i32) -> Self {
+        let nodes = to.layout().nodes();
+        let fields = from.layout().fields();
+        assert_eq!(fields, to.layout().fields(), "the same densities");
+        let grading = to.grading().cloned();
+        let uniform = || (0..nodes).map(|i| i as f64 / nodes as f64).collect();
+        let fractions: Vec<f64> = grading.as_ref().map_or_else(uniform, |grading| grading.fractions());
+        let old = from.current().grading();
+        let parameters = old.map_or_else(|| fractions.clone(), |old| parameters(old, &fractions));
+        Self {
+            points: ScatteredPoints::new(from.layout().nodes(), &parameters),
+            grid: PeriodicGrid::new(nodes),
+            layouts: [from.spectral_layout(), to.spectral_layout()],
+            fields,
+            metric: to.layout().metric(),
+            weight: grading.as_ref().map_or_else(|| vec![1.0; nodes], |grading| grading.weight().to_vec()),
+            closure: Closure::graded(nodes, grading),
+            turning_number,
+        }
+    }
+
+    /// The spectral `state` of `from` on the new nodes.
+    ///
+    /// # Errors
+    /// [`ClosureError`] if the new nodes do not resolve the curve so far that it cannot be closed.
+    pub fn apply(&mut self, from: &mut GradientFlow, state: &[f64]) -> Result<Vec<f64>, ClosureError> {
+        let [old, new] = self.layouts;
+        let length = state[old.length_index()];
+        from.set_current(state);
+        let mut out = vec![0.0; new.len()];
+        for field in 0..self.fields {
+            let mut values = self.points.values(from.current().spectrum(field));
+            values.iter_mut().zip(&self.weight).for_each(|(value, weight)| *value *= length * weight);
+            let total = old.spectra(state)[field * old.modes()].re;
+            let spectrum = &mut new.spectra_mut(&mut out)[field * new.modes()..(field + 1) * new.modes()];
+            self.grid.transform(&values, spectrum);
+            // The interpolant has another mean, by its error: the masses and the turning number are put right.
+            let missing = total - spectrum[0].re;
+            values.iter_mut().zip(&self.weight).for_each(|(value, weight)| *value += missing * weight);
+            self.grid.transform(&values, spectrum);
+            spectrum[0] = Complex64::new(total, 0.0);
+        }
+        if let Some(metric) = self.metric {
+            let values: Vec<f64> = self.weight.iter().map(|weight| length * weight).collect();
+            let spectrum = &mut new.spectra_mut(&mut out)[metric * new.modes()..(metric + 1) * new.modes()];
+            self.grid.transform(&values, spectrum);
+            spectrum[0] = Complex64::new(length, 0.0);
+        }
+        out[new.length_index()] = length;
+        let turning = &mut new.spectra_mut(&mut out)[..new.modes()];
+        self.closure.project(turning, length, self.turning_number, 0.0)?;
+        Ok(out)
+    }
+}
+
+/// Parameters of the nodes of `grading` where the `fractions` of the arc length are reached, by Newton's method within the
+/// interval between two nodes.
+fn parameters(grading: &Grading, fractions: &[f64]) -> Vec<f64> {
     let nodes = grading.nodes();
     let mut grid = PeriodicGrid::new(nodes);
-    let mut shift = vec![Complex64::default(); grid.modes()];
-    grid.transform(grading.shift(), &mut shift);
+    let mut spectra = [vec![Complex64::default(); grid.modes()], vec![Complex64::default(); grid.modes()]];
+    grid.transform(grading.shift(), &mut spectra[0]);
+    grid.transform(grading.weight(), &mut spectra[1]);
     let at_nodes = grading.fractions();
-    let find = |x: &f64| {
+    let interval = |x: &f64| {
         let right = at_nodes.partition_point(|at| at <= x);
-        let [mut low, mut high] = [right.max(1) - 1, right.max(1)].map(|i| i as f64 / nodes as f64);
-        let mut s = 0.5 * (low + high);
-        for _ in 0..MOST_PASSES {
-            let [value, slope] = series(&grid, &shift, s);
-            let excess = s + value - x;
-            if excess.abs() <= FOUND {
-                break;
-            }
-            *(if excess > 0.0 { &mut high } else { &mut low }) = s;
-            let aim = s - excess / (1.0 + slope);
-            // A node itself may be the solution, to rounding.
-            s = if (low..=high).contains(&aim) { aim } else { 0.5 * (low + high) };
-        }
-        s
+        [right.max(1) - 1, right.max(1)].map(|i| i as f64 / nodes as f64)
     };
-    fractions.iter().map(find).collect()
-}
-
-/// The trigonometric interpolant with the coefficients `spectrum` at `s`, and its derivative.
-fn series(grid: &PeriodicGrid, spectrum: &[Complex64], s: f64) -> [f64; 2] {
-    let mut sum = [0.0; 2];
-    for (mode, value) in spectrum.iter().enumerate() {
-        let k = grid.wave_number(mode);
-        let wave = value * Complex64::cis(k * s) * grid.multiplicity(mode);
-        sum[0] += wave.re;
-        sum[1] -= k * wave.im;
+    let mut intervals: Vec<[f64; 2]> = fractions.iter().map(interval).collect();
+    let mut found: Vec<f64> = intervals.iter().map(|[low, high]| 0.5 * (low + high)).collect();
+    for _ in 0..MOST_PASSES {
+        let mut points = ScatteredPoints::new(nodes, &found);
+        let [shifts, slopes] = spectra.each_ref().map(|spectrum| points.values(spectrum));
+        let mut worst = 0.0_f64;
+        for (i, s) in found.iter_mut().enumerate() {
+            let excess = *s + shifts[i] - fractions[i];
+            worst = worst.max(excess.abs());
+            intervals[i][usize::from(excess > 0.0)] = *s;
+            let [low, high] = intervals[i];
+            let aim = *s - excess / slopes[i];
+            // A node itself may be the solution, to rounding.
+            *s = if (low..=high).contains(&aim) { aim } else { 0.5 * (low + high) };
+        }
+        if worst <= FOUND {
+            break;
+        }
     }
-    sum
+    found
 }

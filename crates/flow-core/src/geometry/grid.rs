@@ -49,7 +49,13 @@ impl PeriodicGrid {
     /// How often a mode of the half spectrum stands in the full one: 1 for the mean and the sawtooth, else 2.
     #[must_use]
     pub fn multiplicity(&self, mode: usize) -> f64 {
-        if mode == 0 || Some(mode) == self.sawtooth_mode() { 1.0 } else { 2.0 }
+        Self::multiplicity_on(self.nodes, mode)
+    }
+
+    /// [`PeriodicGrid::multiplicity`] on a grid of `nodes` nodes.
+    #[must_use]
+    pub fn multiplicity_on(nodes: usize, mode: usize) -> f64 {
+        if mode == 0 || 2 * mode == nodes { 1.0 } else { 2.0 }
     }
 
     /// Fourier coefficients of nodal values; the coefficient 0 is the mean.

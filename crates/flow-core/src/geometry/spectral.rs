@@ -7,6 +7,7 @@
 use std::ops::Range;
 
 use super::grid::{Complex64, PeriodicGrid};
+use super::resampling::resample_spectrum;
 use super::state::Layout;
 
 /// Shape of the spectral state vector.
@@ -63,6 +64,20 @@ impl SpectralLayout {
     #[must_use]
     pub fn spectra_mut<'a>(&self, state: &'a mut [f64]) -> &'a mut [Complex64] {
         bytemuck::cast_slice_mut(&mut state[..self.length_index()])
+    }
+
+    /// The spectral `state` as one of the layout `to`, which has the same fields on another number of nodes, at the same
+    /// parameter s. Means are kept; modes that `to` does not hold are lost.
+    #[must_use]
+    pub fn resampled(&self, state: &[f64], to: &Self) -> Vec<f64> {
+        let mut out = vec![0.0; to.len()];
+        let (nodes, new_nodes) = (self.nodal.nodes(), to.nodal.nodes());
+        let targets = to.spectra_mut(&mut out).chunks_exact_mut(to.modes);
+        for (target, spectrum) in targets.zip(self.spectra(state).chunks_exact(self.modes)) {
+            resample_spectrum(nodes, spectrum, new_nodes, target);
+        }
+        out[to.length_index()] = state[self.length_index()];
+        out
     }
 
     /// Transforms a nodal state vector.
