@@ -13,6 +13,7 @@ mod nodal;
 mod normal_mobility;
 mod preconditioner;
 mod regrade;
+mod scales;
 mod shape_energy;
 mod slope_energy;
 
@@ -28,3 +29,4 @@ pub use normal_mobility::{
 };
 pub use preconditioner::{LinearSolver, Preconditioner};
 pub use regrade::{Regraded, Regrading, regrade};
+pub use scales::local_wave_numbers;

@@ -1,8 +1,10 @@
 //! From one gauge or grading to another: the fields of a state at other nodes of the same curve. See `THEORY.md`, eq. (F18).
 
+use std::sync::Arc;
+
 use super::gradient_flow::GradientFlow;
 use crate::geometry::{
-    Closure, ClosureError, Complex64, Grading, PeriodicGrid, ScatteredPoints, SpectralLayout,
+    Closure, ClosureError, Complex64, Grading, Layout, PeriodicGrid, ScatteredPoints, SpectralLayout,
 };
 
 /// A state on other nodes.
@@ -39,7 +41,9 @@ pub fn regrade(
     turning_number: i32,
 ) -> Result<Regraded, ClosureError> {
     let energy = from.spectral_gradient(state);
-    let state = Regrading::new(from, to, turning_number).apply(from, state)?;
+    assert_eq!(from.layout().densities(), to.layout().densities(), "the same densities");
+    let mut way = Regrading::new(from, to.layout(), to.grading().cloned(), turning_number);
+    let state = way.apply(from, state)?;
     let energy_error = to.spectral_gradient(&state) - energy;
     Ok(Regraded { state, energy_error })
 }
@@ -58,13 +62,15 @@ pub struct Regrading {
 }
 
 impl Regrading {
-    /// From the nodes of the state that `from` evaluated last to those of `to`.
+    /// From the nodes of the state that `from` evaluated last to those of the layout `to`, which may be graded.
     #[must_use]
-    pub fn new(from: &GradientFlow, to: &GradientFlow, turning_number: i32) -> Self {
-        let nodes = to.layout().nodes();
-        let fields = from.layout().fields();
-        assert_eq!(fields, to.layout().fields(), "the same densities");
-        let grading = to.grading().cloned();
+    pub fn new(
+        from: &GradientFlow,
+        to: Layout,
+        grading: Option<Arc<Grading>>,
+        turning_number: i32,
+    ) -> Self {
+        let nodes = to.nodes();
         let uniform = || (0..nodes).map(|i| i as f64 / nodes as f64).collect();
         let fractions: Vec<f64> = grading.as_ref().map_or_else(uniform, |grading| grading.fractions());
         let old = from.current().grading();
@@ -72,9 +78,9 @@ impl Regrading {
         Self {
             points: ScatteredPoints::new(from.layout().nodes(), &parameters),
             grid: PeriodicGrid::new(nodes),
-            layouts: [from.spectral_layout(), to.spectral_layout()],
-            fields,
-            metric: to.layout().metric(),
+            layouts: [from.spectral_layout(), SpectralLayout::new(to)],
+            fields: to.fields(),
+            metric: to.metric(),
             weight: grading.as_ref().map_or_else(|| vec![1.0; nodes], |grading| grading.weight().to_vec()),
             closure: Closure::graded(nodes, grading),
             turning_number,

@@ -18,6 +18,19 @@ pub fn resample_spectrum(nodes: usize, spectrum: &[Complex64], to: usize, out: &
     }
 }
 
+/// Periodic nodal values on `count` nodes instead.
+#[must_use]
+pub fn resample(values: &[f64], count: usize) -> Vec<f64> {
+    let (mut old, mut new) = (PeriodicGrid::new(values.len()), PeriodicGrid::new(count));
+    let mut spectrum = vec![Complex64::default(); old.modes()];
+    let mut resampled = vec![Complex64::default(); new.modes()];
+    let mut out = vec![0.0; count];
+    old.transform(values, &mut spectrum);
+    resample_spectrum(values.len(), &spectrum, count, &mut resampled);
+    new.synthesise(&resampled, &mut out);
+    out
+}
+
 /// Width of the kernel in nodes of the fine grid; the error is then rounding.
 const WIDTH: usize = 14;
 /// Shape of the Kaiser–Bessel kernel for a grid twice as fine.

@@ -68,6 +68,15 @@ impl DerivativeFamily {
         }
     }
 
+    /// Relative error of the second derivative of a wave that turns by `angle` from node to node.
+    #[must_use]
+    pub fn symbol_error(self, angle: f64) -> f64 {
+        let Some(stencil) = self.stencil() else { return 0.0 };
+        let terms = stencil.difference.iter().enumerate();
+        let difference: f64 = terms.map(|(j, c)| 2.0 * c * ((j as f64 + 0.5) * angle).sin()).sum();
+        if angle == 0.0 { 0.0 } else { 1.0 - (difference / angle).powi(2) }
+    }
+
     /// Coefficients of the staggered difference, that of order 8 for the Fourier family.
     pub(super) fn differences(self) -> &'static [f64] {
         self.stencil().unwrap_or(&CENTRAL_8).difference

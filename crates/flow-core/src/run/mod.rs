@@ -1,14 +1,16 @@
 //! From a scene to a finished run.
 
+mod adaptation;
 mod diagnostics;
 mod energy_density;
 mod energy_terms;
 mod equilibrium;
 mod frames;
-mod grading;
+mod gauges;
 mod interpolant;
 mod invariants;
 mod membrane;
+mod mesh;
 mod mobilities;
 mod nodal_lines;
 mod observer;
@@ -20,7 +22,6 @@ mod schedule;
 mod setup;
 mod setup_error;
 mod simulation;
-mod switches;
 mod term_parts;
 pub mod tradeoff;
 

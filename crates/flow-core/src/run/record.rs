@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::resample;
 use crate::integrator::{Counters, Rejections};
 
 /// One saved state. Fields hold one value per node, `n` of them.
@@ -45,6 +46,31 @@ pub struct Frame {
     pub diagnostics: Vec<f64>,
 }
 
+impl Frame {
+    /// Whether every field has a value for each node.
+    #[must_use]
+    pub fn is_consistent(&self) -> bool {
+        let nodes = self.curvature.len();
+        let fields = [&self.metric, &self.normal_velocity].into_iter().chain(&self.density).chain(&self.fields);
+        self.position.len() == nodes && fields.into_iter().all(|field| field.len() == nodes)
+    }
+
+    /// The same frame on `nodes` nodes, by trigonometric interpolation at the same parameters.
+    #[must_use]
+    pub fn resampled(mut self, nodes: usize) -> Self {
+        if nodes == self.curvature.len() {
+            return self;
+        }
+        let position = [0, 1].map(|axis| resample(&self.position.iter().map(|at| at[axis]).collect::<Vec<_>>(), nodes));
+        self.position = position[0].iter().zip(&position[1]).map(|(x, y)| [*x, *y]).collect();
+        let nodal = [&mut self.curvature, &mut self.metric, &mut self.normal_velocity];
+        for field in nodal.into_iter().chain(&mut self.density).chain(&mut self.fields) {
+            *field = resample(field, nodes);
+        }
+        self
+    }
+}
+
 /// One entry per accepted step.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct StepLog {
@@ -58,6 +84,8 @@ pub struct StepLog {
     pub dissipation: Vec<f64>,
     /// Order of the method in the step.
     pub order: Vec<u8>,
+    /// Number of nodes in the step.
+    pub nodes: Vec<u32>,
     /// Rejected attempts before this step was accepted, by cause.
     pub rejections: Vec<Rejections>,
 }
@@ -73,6 +101,7 @@ impl StepLog {
             energy: column(),
             dissipation: column(),
             order: Vec::with_capacity(steps),
+            nodes: Vec::with_capacity(steps),
             rejections: Vec::with_capacity(steps),
         }
     }
@@ -148,7 +177,15 @@ pub struct Record {
 }
 
 impl Record {
-    /// Number of nodes.
+    /// All frames on the largest number of nodes among them.
+    #[must_use]
+    pub(super) fn on_common_nodes(mut self) -> Self {
+        let nodes = self.frames.iter().map(|frame| frame.curvature.len()).max().unwrap_or_default();
+        self.frames = self.frames.into_iter().map(|frame| frame.resampled(nodes)).collect();
+        self
+    }
+
+    /// Number of nodes of the frames: the largest that the run had, where it chose them itself.
     #[must_use]
     pub fn nodes(&self) -> usize {
         self.frames.last().map_or(0, |frame| frame.curvature.len())

@@ -1,41 +1,67 @@
-//! The automatic number of nodes: enough for the initial curve and for the fronts that a scene names.
+//! How many nodes a state needs, and how many the fronts that a scene names will need. See `THEORY.md`, eq. (D11).
 
-use super::grading::{grading, resample};
-use super::scene::{Length, LengthTarget, Nodes, Scene};
-use super::setup_error::SetupError;
-use crate::geometry::shapes::Shape;
-use crate::geometry::{Embedding, GradingError};
+use std::f64::consts::TAU;
+
+use super::scene::{Length, LengthTarget, Scene};
+use crate::geometry::vectors::dot;
+use crate::geometry::{Layout, SpectralLayout};
+use crate::operators::DerivativeFamily;
 
 /// Fewest nodes that the automatic choice takes.
-const FEWEST: usize = 128;
+pub const LEAST_NODES: usize = 32;
 /// Most nodes.
-pub const MOST: usize = 65536;
-/// Largest distance of nodes in units of ε: a front of width ε/√2 then spans about eight of them from
+pub const MOST_NODES: usize = 65536;
+/// Part of the modes of a grid that should hold nothing.
+const EMPTY: f64 = 0.2;
+/// Largest distance of uniform nodes in units of ε: a front of width ε/√2 then spans about eight of them from
 /// one side to the other.
 const NODE_DISTANCE_PER_EPSILON: f64 = 0.55;
-/// Gap of the sampled initial curve, relative to its length and to the tolerance.
-const GAP_PER_TOLERANCE: f64 = 1.0;
+/// More nodes at a time than this factor are a guess.
+const MOST_GROWTH: f64 = 2.0;
 
-/// The number of nodes of a scene.
-///
-/// # Errors
-/// [`SetupError`] if the curve is unusable or needs too many nodes.
-pub fn nodes(scene: &Scene, shape: &Shape, initial_length: f64) -> Result<usize, SetupError> {
-    match scene.accuracy.nodes {
-        Nodes::Count(nodes) => Ok(nodes),
-        Nodes::Auto => {
-            let for_fronts = fast_size(fronts(scene, initial_length))?;
-            let mut nodes = for_fronts.max(FEWEST);
-            while gap(scene, shape, nodes)? > GAP_PER_TOLERANCE * scene.accuracy.tolerance {
-                nodes = fast_size(1.3 * nodes as f64)?;
-            }
-            Ok(nodes)
-        }
+/// Part of the spectral `state`, the largest over its fields, that `nodes` nodes do not resolve: what the highest modes hold, or
+/// miss by the error of the derivative, relative to the field.
+pub fn unresolved(layout: Layout, state: &[f64], nodes: usize, family: DerivativeFamily) -> f64 {
+    let spectral = SpectralLayout::new(layout);
+    let length = state[spectral.length_index()];
+    let first_empty = 0.5 * (1.0 - EMPTY) * nodes as f64;
+    let mut worst = 0.0_f64;
+    for field in 0..layout.fields() {
+        let spectrum = &state[spectral.field(field)];
+        // A turn of the tangent per length, a thousandth of full coverage, as in the norm of the errors.
+        let floor = if field == 0 { 1.0 } else { (1e-3 * length).powi(2) };
+        let all = dot(spectrum, spectrum).max(floor);
+        let missed = |(mode, pair): (usize, &[f64])| {
+            let mode = mode as f64;
+            let error = if mode >= first_empty { 1.0 } else { family.symbol_error(TAU * mode / nodes as f64) };
+            error * error * dot(pair, pair)
+        };
+        let missed: f64 = spectrum.chunks_exact(2).enumerate().map(missed).sum();
+        worst = worst.max((missed / all).sqrt());
     }
+    worst
 }
 
-/// Nodes that the fronts of the agents need on the longest curve expected.
-fn fronts(scene: &Scene, initial_length: f64) -> f64 {
+/// Nodes, at the same parameters, on which at most the part `aim` of the spectral `state` is not resolved: a fast size, a guess
+/// if more are needed than the state has.
+pub fn needed_nodes(layout: Layout, state: &[f64], aim: f64, family: DerivativeFamily) -> usize {
+    let nodes = layout.nodes();
+    let part = |nodes: usize| unresolved(layout, state, nodes, family);
+    let now = part(nodes);
+    if now <= aim {
+        let fewer = sizes().take_while(|size| *size < nodes).find(|size| part(*size) <= aim);
+        return fewer.unwrap_or(nodes);
+    }
+    // As if the spectrum fell on as it does over the last modes.
+    let before = 3 * nodes / 4;
+    let rate = (part(before) / now).ln() / (nodes - before) as f64;
+    let more = if rate > 0.0 { (now / aim).ln() / rate } else { f64::INFINITY };
+    let least = nodes as f64 + more.min((MOST_GROWTH - 1.0) * nodes as f64);
+    size_above(least).max(nodes)
+}
+
+/// Nodes that the fronts of the agents need on the longest curve expected, at equal distances; zero without agents.
+pub fn fronts(scene: &Scene, initial_length: f64) -> f64 {
     let target = match &scene.energy.length {
         Some(Length::Penalty { target: LengthTarget::Absolute(target), .. }) => *target,
         Some(Length::Penalty { target: LengthTarget::Ratio(ratio), .. }) => ratio * initial_length,
@@ -46,38 +72,25 @@ fn fronts(scene: &Scene, initial_length: f64) -> f64 {
     })
 }
 
-/// Gap of the curve sampled at `nodes` nodes, relative to its length.
-fn gap(scene: &Scene, shape: &Shape, nodes: usize) -> Result<f64, SetupError> {
-    let grading = match grading(scene, nodes) {
-        Err(SetupError::Grading(GradingError::NotResolved { .. })) => return Ok(f64::INFINITY),
-        other => other?,
-    };
-    let curve = resample(shape, nodes, grading.as_deref())?;
-    let mut turning: Vec<f64> = curve.curvature.iter().map(|kappa| kappa * curve.length).collect();
-    if let Some(grading) = &grading {
-        grading.weigh(&mut turning);
-    }
-    let mut embedding = Embedding::graded(nodes, grading);
-    embedding.set_tangent(&turning, curve.length, curve.angle);
-    let [x, y] = embedding.gap();
-    Ok(x.hypot(y) / curve.length)
-}
-
-/// The least 2ᵃ3ᵇ, a ≥ 3, that is at least `least`: its transforms are fast.
-fn fast_size(least: f64) -> Result<usize, SetupError> {
-    let mut best = usize::MAX;
+/// Numbers 2ᵃ3ᵇ of nodes, a ≥ 3, in increasing order, whose transforms are fast.
+fn sizes() -> impl Iterator<Item = usize> {
+    let mut sizes: Vec<usize> = Vec::new();
     let mut power_of_three = 8;
-    while power_of_three <= 2 * MOST {
+    while power_of_three <= 2 * MOST_NODES {
         let mut size = power_of_three;
-        while (size as f64) < least && size <= 2 * MOST {
+        while size <= 2 * MOST_NODES {
+            sizes.push(size);
             size *= 2;
-        }
-        if size as f64 >= least {
-            best = best.min(size);
         }
         power_of_three *= 3;
     }
-    if best > MOST { Err(SetupError::TooManyNodes { needed: least, most: MOST }) } else { Ok(best) }
+    sizes.sort_unstable();
+    sizes.into_iter()
+}
+
+/// The least fast size that is at least `least`, twice the most nodes at most.
+pub fn size_above(least: f64) -> usize {
+    sizes().find(|size| *size as f64 >= least).unwrap_or(2 * MOST_NODES)
 }
 
 #[cfg(test)]
@@ -86,9 +99,39 @@ mod tests {
 
     #[test]
     fn sizes_are_fast_and_large_enough() {
-        for (least, size) in [(1.0, 8), (100.0, 128), (129.0, 144), (505.0, 512), (1300.0, 1536)] {
-            assert_eq!(fast_size(least).unwrap(), size);
+        for (least, size) in [(1.0, 8), (100.0, 108), (129.0, 144), (505.0, 512), (1300.0, 1536)] {
+            assert_eq!(size_above(least), size);
         }
-        assert!(matches!(fast_size(1e7), Err(SetupError::TooManyNodes { .. })));
+    }
+
+    /// A state whose curvature has the modes e^{−αk}.
+    fn falling(nodes: usize, rate: f64) -> (Layout, Vec<f64>) {
+        let layout = Layout::new(nodes, 0);
+        let spectral = SpectralLayout::new(layout);
+        let mut state = vec![0.0; spectral.len()];
+        for (mode, value) in spectral.spectra_mut(&mut state).iter_mut().enumerate() {
+            value.re = TAU * (-rate * mode as f64).exp();
+        }
+        (layout, state)
+    }
+
+    #[test]
+    fn the_nodes_needed_are_found_from_below_and_from_above() {
+        let needed = |nodes, aim| {
+            let (layout, state) = falling(nodes, 0.2);
+            needed_nodes(layout, &state, aim, DerivativeFamily::Fourier)
+        };
+        // e^{−0.2·0.4n} = 1e-6 at n = 173.
+        assert_eq!(needed(1024, 1e-6), 192);
+        assert_eq!(needed(128, 1e-6), 192);
+        assert_eq!(needed(64, 1e-6), 128, "at most twice as many");
+    }
+
+    #[test]
+    fn differences_need_more_nodes_than_trigonometric_interpolation() {
+        let (layout, state) = falling(1024, 0.2);
+        let needed = |family| needed_nodes(layout, &state, 1e-4, family);
+        assert!(needed(DerivativeFamily::Central8) > needed(DerivativeFamily::Fourier));
+        assert!(needed(DerivativeFamily::Central4) > needed(DerivativeFamily::Central8));
     }
 }

@@ -2,19 +2,20 @@
 
 use std::sync::Arc;
 
+use super::adaptation::{Adaptation, unresolved_bound};
 use super::diagnostics::Diagnostics;
 use super::energy_terms::{Initial, energy_terms};
-use super::grading::{grading, resample};
+use super::gauges::Gauges;
 use super::membrane::Membrane;
+use super::mesh::Mesh;
 use super::mobilities::{density_mobilities, normal_mobility};
-use super::resolution;
-use super::scene::{self, Gauge, Scene};
+use super::resolution::{self, MOST_NODES, needed_nodes};
+use super::scene::{self, Gauge, Nodes, Scene};
 use super::setup_error::SetupError;
-use super::switches::Switches;
 use crate::flow::{EnergySum, FlowMap, GradientFlow, LinearSolver};
 use crate::geometry::shapes::{Resampled, Shape};
 use crate::geometry::{
-    Closure, Embedding, Grading, Layout, PeriodicGrid, Placement, SpectralLayout, enclosed_area,
+    Closure, Embedding, Grading, GradingError, Layout, PeriodicGrid, Placement, SpectralLayout, enclosed_area,
 };
 use crate::operators::{Derivative, DerivativeFamily};
 
@@ -31,8 +32,12 @@ pub struct Setup {
     pub diagnostics: Diagnostics,
     /// Gap of the initial curve before it was closed.
     pub closure_defect: f64,
-    /// Changes of the gauge to come.
-    pub switches: Switches,
+    /// The gauge in force and those to come.
+    pub gauges: Gauges,
+    /// The nodes at the start.
+    pub mesh: Mesh,
+    /// Chooses them, if the scene leaves that to the program.
+    pub adaptation: Option<Adaptation>,
 }
 
 /// Largest gap, relative to the length, that is closed on input without complaint.
@@ -46,21 +51,76 @@ impl Setup {
     pub fn new(scene: &Scene) -> Result<Self, SetupError> {
         let shape = shape(&scene.curve.shape);
         let initial_length = shape.length()?;
-        let nodes = resolution::nodes(scene, &shape, initial_length)?;
-        let grading = grading(scene, nodes)?;
-        let curve = resample(&shape, nodes, grading.as_deref())?;
+        let Start { mesh, grading, curve, state, closure_defect } = start(scene, &shape, initial_length)?;
         check_turning(scene, &curve)?;
-        let layout = layout(scene, nodes);
-        let (state, closure_defect) = initial_state(scene, &curve, layout, grading.as_ref())?;
+        let layout = layout(scene, mesh.nodes);
         let area = area(&state, layout, &curve, grading.clone());
         let initial = Initial { length: initial_length, area };
-        let (flow, diagnostics) = flow(scene, initial, nodes, grading)?;
+        let (flow, diagnostics) = flow(scene, initial, mesh.nodes, grading)?;
         let solver = linear_solver(scene.accuracy.linear_solver);
         let membrane = Membrane::new(flow, solver, curve.turning_number, curve.angle);
         let placement = Placement { angle: curve.angle, centre: curve.centre };
-        let switches = Switches::new(scene, initial, nodes)?;
-        Ok(Self { membrane, state, placement, diagnostics, closure_defect, switches })
+        let gauges = Gauges::new(scene, initial, &mesh)?;
+        let adaptation = Adaptation::of(scene, family(scene.accuracy.derivative));
+        Ok(Self { membrane, state, placement, diagnostics, closure_defect, gauges, mesh, adaptation })
     }
+}
+
+/// The initial curve on its nodes.
+struct Start {
+    mesh: Mesh,
+    grading: Option<Arc<Grading>>,
+    curve: Resampled,
+    state: Vec<f64>,
+    closure_defect: f64,
+}
+
+/// Nodes on which the initial data are looked at first, and the most that they get: data with kinks need any number, and the
+/// flow smooths them.
+const FIRST_NODES: usize = 256;
+const MOST_FIRST_NODES: usize = 4096;
+
+/// As many nodes as the scene says, or as its initial data need.
+fn start(scene: &Scene, shape: &Shape, length: f64) -> Result<Start, SetupError> {
+    let nodes = match scene.accuracy.nodes {
+        Nodes::Count(nodes) => return start_on(scene, shape, nodes),
+        Nodes::Auto => FIRST_NODES,
+    };
+    let fronts = resolution::fronts(scene, length);
+    if scene.flow.gauge != Gauge::Graded && fronts > MOST_NODES as f64 {
+        return Err(SetupError::TooManyNodes { needed: fronts, most: MOST_NODES });
+    }
+    let (mut nodes, family) = (nodes, family(scene.accuracy.derivative));
+    loop {
+        match start_on(scene, shape, nodes) {
+            Ok(start) => {
+                let aim = unresolved_bound(scene.accuracy.tolerance);
+                let needed = needed_nodes(layout(scene, nodes), &start.state, aim, family);
+                if needed == nodes || (needed > nodes && nodes >= MOST_FIRST_NODES) {
+                    return Ok(start);
+                }
+                let fewer = needed < nodes;
+                nodes = needed.clamp(resolution::LEAST_NODES, MOST_FIRST_NODES);
+                if fewer {
+                    return start_on(scene, shape, nodes);
+                }
+            }
+            Err(error) if nodes >= MOST_FIRST_NODES => return Err(error),
+            Err(SetupError::TooFewNodes { .. } | SetupError::Grading(GradingError::NotResolved { .. })) => nodes *= 2,
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+fn start_on(scene: &Scene, shape: &Shape, nodes: usize) -> Result<Start, SetupError> {
+    let mesh = Mesh::of(scene, nodes);
+    let grading = mesh.grading(scene)?;
+    let curve = match &grading {
+        None => shape.resample(nodes)?,
+        Some(grading) => shape.resample_graded(grading)?,
+    };
+    let (state, closure_defect) = initial_state(scene, &curve, layout(scene, nodes), grading.as_ref())?;
+    Ok(Start { mesh, grading, curve, state, closure_defect })
 }
 
 /// Shape of the states of a scene on `nodes` nodes.

@@ -1,5 +1,6 @@
 //! Runs a scene: steps, frames, stop.
 
+mod remap;
 mod resume;
 mod start;
 mod switch;
@@ -11,15 +12,17 @@ pub use resume::{Memory, ResumeError};
 
 use crate::geometry::Layout;
 use crate::integrator::{Adaptive, Bdf, Counters, StepReport, Stepper};
+use crate::run::adaptation::Adaptation;
 use crate::run::diagnostics::Diagnostics;
 use crate::run::equilibrium::Equilibrium;
 use crate::run::frames::{Start, frame};
+use crate::run::gauges::Gauges;
 use crate::run::membrane::Membrane;
+use crate::run::mesh::Mesh;
 use crate::run::observer::{Observer, Progress};
 use crate::run::record::{Frame, Record, StepLog, StopReason};
 use crate::run::scene::Scene;
 use crate::run::setup_error::SetupError;
-use crate::run::switches::Switches;
 
 /// Part of the tolerance by which the energy balance of one step may be off.
 pub const ENERGY_TOLERANCE_SHARE: f64 = 0.01;
@@ -30,7 +33,15 @@ pub struct Simulation {
     membrane: Membrane,
     diagnostics: Diagnostics,
     integration: Adaptive<Bdf>,
-    switches: Switches,
+    gauges: Gauges,
+    /// Chooses the nodes, if the scene leaves that to the program.
+    adaptation: Option<Adaptation>,
+    mesh: Mesh,
+    /// Accepted steps when the nodes were chosen, and how often a choice was not carried out.
+    remapped_at: u64,
+    refused_remaps: u64,
+    /// Changes of the gauge so far.
+    switches: u64,
     tolerance: f64,
     start: Start,
     end: f64,
@@ -89,8 +100,10 @@ impl Simulation {
                 } else if report.time >= self.end {
                     self.stop(StopReason::EndTime);
                 } else {
-                    if report.time >= self.switches.next_time() {
+                    if report.time >= self.gauges.next_time() {
                         self.switch(&report);
+                    } else {
+                        self.adapt(report.time, report.energy);
                     }
                     // Last, so that a resumed run has nothing left to do for this step.
                     if asked_to_stop && self.stopped.is_none() {
@@ -116,7 +129,7 @@ impl Simulation {
 
     /// Where the steps must end next: at the end, at a switch, or where the caller wants it.
     fn next_stop(&self) -> f64 {
-        self.end.min(self.switches.next_time()).min(self.until)
+        self.end.min(self.gauges.next_time()).min(self.until)
     }
 
     /// Takes an interruption back, so that the run can go on.
@@ -167,6 +180,7 @@ impl Simulation {
             fields: self.record.fields.clone(),
             diagnostics: self.record.diagnostics.clone(),
         }
+        .on_common_nodes()
     }
 
     /// Counters with the time spent.
@@ -205,6 +219,7 @@ impl Simulation {
         steps.energy.push(report.energy);
         steps.dissipation.push(report.dissipation);
         steps.order.push(report.order as u8);
+        steps.nodes.push(self.membrane.layout().nodes() as u32);
         steps.rejections.push(report.rejections);
     }
 
@@ -285,6 +300,6 @@ impl Simulation {
         if self.stopped.is_none() {
             self.stop(StopReason::Interrupted);
         }
-        self.record
+        self.record.on_common_nodes()
     }
 }

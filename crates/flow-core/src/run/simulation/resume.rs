@@ -7,6 +7,7 @@ use crate::integrator::{self, Adaptive, AdaptiveOptions, Bdf, Counters, Problem,
 use crate::run::equilibrium::Equilibrium;
 use crate::run::frames::Start;
 use crate::run::membrane::MembraneMemory;
+use crate::run::mesh::Mesh;
 use crate::run::record::{Frame, StepLog, StopReason};
 use crate::run::scene::Scene;
 use crate::run::setup_error::SetupError;
@@ -23,6 +24,10 @@ pub struct Memory {
     closure_defect: f64,
     allowed_crossings: Option<usize>,
     equilibrium: Option<Equilibrium>,
+    mesh: Mesh,
+    remapped_at: u64,
+    refused_remaps: u64,
+    switches: u64,
 }
 
 impl Memory {
@@ -77,6 +82,10 @@ impl Simulation {
             closure_defect: self.closure_defect,
             allowed_crossings: self.allowed_crossings,
             equilibrium: self.equilibrium.clone(),
+            mesh: self.mesh.clone(),
+            remapped_at: self.remapped_at,
+            refused_remaps: self.refused_remaps,
+            switches: self.switches,
         }
     }
 
@@ -112,8 +121,10 @@ impl Simulation {
         let foreign = |item| ResumeError::Foreign { item };
         let mut simulation = Self::new(scene)?;
         let turning_number = simulation.membrane.turning_number();
-        if let Some(switched) = simulation.switches.skip(memory.counters.remaps, turning_number) {
-            (simulation.membrane, simulation.diagnostics) = switched?;
+        simulation.gauges.skip(memory.switches);
+        if memory.counters.remaps > 0 {
+            let built = simulation.gauges.build(&memory.mesh, turning_number)?;
+            (simulation.membrane, simulation.diagnostics) = built;
         }
         if !memory.integration.fits(simulation.membrane.size()) {
             return Err(foreign("the past states"));
@@ -126,8 +137,7 @@ impl Simulation {
             return Err(foreign("the frames"));
         }
         frames.truncate(memory.scheduled_frames);
-        let first = simulation.record.frames.first().map(|first| first.curvature.len());
-        if frames.iter().any(|frame| Some(frame.curvature.len()) != first) {
+        if frames.iter().any(|frame| !frame.is_consistent()) {
             return Err(foreign("the number of nodes of the frames"));
         }
         if steps.time.len() as u64 != memory.counters.steps {
@@ -147,6 +157,9 @@ impl Simulation {
         simulation.closure_defect = memory.closure_defect;
         simulation.allowed_crossings = memory.allowed_crossings;
         simulation.equilibrium = memory.equilibrium;
+        simulation.scratch = vec![0.0; simulation.membrane.size()];
+        (simulation.mesh, simulation.remapped_at) = (memory.mesh, memory.remapped_at);
+        (simulation.refused_remaps, simulation.switches) = (memory.refused_remaps, memory.switches);
         Ok(simulation)
     }
 }

@@ -21,7 +21,7 @@ impl Simulation {
     /// # Errors
     /// [`SetupError`] if the scene makes no initial state.
     pub fn new(scene: &Scene) -> Result<Self, SetupError> {
-        let Setup { mut membrane, mut state, placement, mut diagnostics, closure_defect, switches } =
+        let Setup { mut membrane, mut state, placement, mut diagnostics, closure_defect, gauges, mesh, adaptation } =
             Setup::new(scene)?;
         let finish = membrane.finish(0.0, &mut state);
         let Finish::Good { energy, dissipation, integral_rates } = finish else {
@@ -48,7 +48,7 @@ impl Simulation {
         counters.integration_seconds = clock.elapsed().as_secs_f64();
         let end = scene.time.end;
         let options = AdaptiveOptions {
-            end: end.min(switches.next_time()),
+            end: end.min(gauges.next_time()),
             most_steps: scene.time.max_steps.unwrap_or(u64::MAX),
             energy_tolerance: ENERGY_TOLERANCE_SHARE * scene.accuracy.tolerance,
         };
@@ -73,7 +73,12 @@ impl Simulation {
                 .stop_at_equilibrium
                 .then(|| Equilibrium::new(rest, energy, dissipation, end)),
             integration: Adaptive::new(stepper, options, energy, counters),
-            switches,
+            gauges,
+            adaptation,
+            mesh,
+            remapped_at: 0,
+            refused_remaps: 0,
+            switches: 0,
             tolerance: scene.accuracy.tolerance,
             start,
             end,

@@ -4,15 +4,16 @@ use std::time::Instant;
 
 use super::Simulation;
 use crate::integrator::{Adaptive, AdaptiveOptions, Bdf, Finish, Integrals, Problem, StepReport, Stepper};
+use crate::run::gauges::Switched;
+use crate::run::mesh::Mesh;
 use crate::run::record::StopReason;
-use crate::run::switches::Switched;
 
 impl Simulation {
     /// Goes on in the next gauge from the state at hand.
     pub(super) fn switch(&mut self, report: &StepReport) {
         let clock = Instant::now();
         let state = self.integration.stepper().state();
-        let Some(switched) = self.switches.apply(&mut self.membrane, state) else { return };
+        let Some(switched) = self.gauges.switch(&mut self.membrane, state) else { return };
         let Switched { membrane, diagnostics, regraded } = match switched {
             Ok(switched) => switched,
             Err(error) => {
@@ -29,6 +30,9 @@ impl Simulation {
         self.start.remap_error += energy - report.energy;
         let mut counters = *self.integration.counters();
         counters.remaps += 1;
+        self.switches += 1;
+        self.mesh = Mesh::of(self.gauges.scene(), self.membrane.layout().nodes());
+        self.remapped_at = counters.steps;
         let integrals = Integrals::new(report.time, self.integration.integrals(), integral_rates);
         let stepper =
             Bdf::starting(&mut self.membrane, &self.scratch, integrals, self.tolerance, &mut counters);

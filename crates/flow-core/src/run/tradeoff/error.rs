@@ -45,7 +45,7 @@ pub enum TradeoffError {
     #[error(
         "the tightest run has {nodes} nodes, and a reference with twice as many is not allowed: {} is the most; give the \
          reference a number of nodes, or end the ladder at a larger tolerance",
-        resolution::MOST
+        resolution::MOST_NODES
     )]
     TooManyNodes { nodes: usize },
     /// An observer asked to stop before the reference was complete.

@@ -39,7 +39,7 @@ pub enum LadderError {
     #[error(
         "the reference cannot have {nodes} nodes: they must be between {FEWEST_NODES} and {}; try twice those of \
          the scene",
-        resolution::MOST
+        resolution::MOST_NODES
     )]
     ReferenceNodes { nodes: usize },
 }
@@ -71,7 +71,7 @@ impl Ladder {
             return Err(LadderError::Repeated { value: pair[0] });
         }
         match reference_nodes {
-            Some(nodes) if !(FEWEST_NODES..=resolution::MOST).contains(&nodes) => {
+            Some(nodes) if !(FEWEST_NODES..=resolution::MOST_NODES).contains(&nodes) => {
                 Err(LadderError::ReferenceNodes { nodes })
             }
             _ => Ok(Self { tolerances, reference_nodes }),

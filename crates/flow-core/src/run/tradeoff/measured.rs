@@ -153,7 +153,7 @@ fn reference_nodes(scene: &Scene, ladder: &Ladder, span: &Span) -> Result<usize,
     match (ladder.reference_nodes(), scene.accuracy.nodes) {
         (Some(nodes), _) if nodes < least => Err(TradeoffError::FewerNodes { nodes, least }),
         (Some(nodes), _) | (None, Nodes::Count(nodes)) => Ok(nodes),
-        (None, Nodes::Auto) if 2 * least > resolution::MOST => {
+        (None, Nodes::Auto) if 2 * least > resolution::MOST_NODES => {
             Err(TradeoffError::TooManyNodes { nodes: least })
         }
         (None, Nodes::Auto) => Ok(2 * least),

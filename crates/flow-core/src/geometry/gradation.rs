@@ -1,0 +1,120 @@
+//! Gradings that follow the scales of a solution. See `THEORY.md`, eq. (D11).
+
+use super::grading::Grading;
+use super::grid::{Complex64, PeriodicGrid};
+
+/// The spacing grows at most at this rate with the distance: a layer of width d at distance x asks for max(d, |x|). A function
+/// with a pole at distance d from the real line is then resolved by a number of nodes that grows as ln(1/d).
+const GROWTH: f64 = 1.0;
+/// Modes, as a part of the nodes, beyond which the logarithm of the spacing is smoothed, and by which the samples are.
+const SMOOTH: f64 = 0.1;
+const CLEAN: f64 = 0.2;
+/// Points of the map per node.
+const REFINEMENT: usize = 4;
+
+/// Samples (see [`Grading::samples`]) of the grading on `nodes` nodes whose spacing is inversely proportional to `wave_numbers`,
+/// given at the `fractions` of the arc length in increasing order, the first of them 0.
+#[must_use]
+pub fn follow_scales(fractions: &[f64], wave_numbers: &[f64], nodes: usize) -> Vec<f64> {
+    let spacing: Vec<f64> = wave_numbers.iter().map(|k| 1.0 / k).collect();
+    let spacing = limit_growth(fractions, spacing);
+    let count = REFINEMENT * nodes;
+    // Smoothed along the parameter of the raw map, but as a function of the place x: the crowds stay where they are.
+    let (places, raw) = place_nodes(fractions, &spacing, count);
+    let smooth = low_pass(&raw, SMOOTH * nodes as f64);
+    let (_, spacing) = place_nodes(&places, &smooth, count);
+    let clean = low_pass(&spacing, CLEAN * nodes as f64);
+    let every = count / Grading::samples(nodes);
+    clean.into_iter().step_by(every).collect()
+}
+
+/// The largest spacing below `spacing` that grows at most at the rate [`GROWTH`].
+fn limit_growth(fractions: &[f64], mut spacing: Vec<f64>) -> Vec<f64> {
+    let count = spacing.len();
+    let distance = |i: usize| if i + 1 < count { fractions[i + 1] - fractions[i] } else { 1.0 - fractions[i] };
+    for i in 0..2 * count {
+        let (left, right) = (i % count, (i + 1) % count);
+        spacing[right] = spacing[right].min(spacing[left] + GROWTH * distance(left));
+    }
+    for i in (0..2 * count).rev() {
+        let (left, right) = (i % count, (i + 1) % count);
+        spacing[left] = spacing[left].min(spacing[right] + GROWTH * distance(left));
+    }
+    spacing
+}
+
+/// Places x and spacing h of `count` nodes with dx/ds proportional to h(x), h given at the `fractions`; the first is at 0.
+fn place_nodes(fractions: &[f64], spacing: &[f64], count: usize) -> (Vec<f64>, Vec<f64>) {
+    let points = fractions.len();
+    let at = |i: usize| if i < points { (fractions[i], spacing[i]) } else { (1.0, spacing[0]) };
+    let mut reached = vec![0.0; points + 1];
+    for i in 0..points {
+        let ((x0, h0), (x1, h1)) = (at(i), at(i + 1));
+        reached[i + 1] = reached[i] + 0.5 * (x1 - x0) * (1.0 / h0 + 1.0 / h1);
+    }
+    let mut left = 0;
+    let node = |j: usize| {
+        let aim = reached[points] * j as f64 / count as f64;
+        while left + 1 < points && reached[left + 1] <= aim {
+            left += 1;
+        }
+        let ((x0, h0), (x1, h1)) = (at(left), at(left + 1));
+        let part = (aim - reached[left]) / (reached[left + 1] - reached[left]);
+        (x0 + part * (x1 - x0), h0 + part * (h1 - h0))
+    };
+    (0..count).map(node).unzip()
+}
+
+/// Smooths the logarithm of positive periodic values by a Gaussian filter of the cut-off `modes`.
+fn low_pass(values: &[f64], modes: f64) -> Vec<f64> {
+    let mut grid = PeriodicGrid::new(values.len());
+    let mut spectrum = vec![Complex64::default(); grid.modes()];
+    let mut smooth: Vec<f64> = values.iter().map(|value| value.ln()).collect();
+    grid.transform(&smooth, &mut spectrum);
+    for (mode, value) in spectrum.iter_mut().enumerate() {
+        *value *= (-(mode as f64 / modes).powi(2)).exp();
+    }
+    grid.synthesise(&spectrum, &mut smooth);
+    smooth.iter_mut().for_each(|value| *value = value.exp());
+    smooth
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Wave numbers of one layer of width `d` at `place`.
+    fn layer(d: f64, place: f64, count: usize) -> (Vec<f64>, Vec<f64>) {
+        let fractions: Vec<f64> = (0..count).map(|i| i as f64 / count as f64).collect();
+        let near = |x: &f64| 1.0 / (d * ((x - place) / d).cosh().powi(2)).max(1e-300) + 6.0;
+        let waves = fractions.iter().map(|x| if (x - place).abs() < 20.0 * d { near(x).min(1.0 / d) } else { 6.0 });
+        (fractions.clone(), waves.collect())
+    }
+
+    #[test]
+    fn nodes_crowd_where_the_layer_is() {
+        for (d, place) in [(0.02, 0.5), (0.002, 0.31)] {
+            let (fractions, waves) = layer(d, place, 4096);
+            let grading = Grading::new(&follow_scales(&fractions, &waves, 128)).unwrap();
+            let densest = (0..128).min_by(|a, b| grading.weight()[*a].total_cmp(&grading.weight()[*b])).unwrap();
+            assert!((grading.fractions()[densest] - place).abs() < d, "{d}: {}", grading.fractions()[densest]);
+        }
+    }
+
+    #[test]
+    fn a_tenfold_sharper_layer_asks_for_a_few_nodes_more() {
+        // Nodes within the layer, of 128.
+        let within = |d: f64| {
+            let (fractions, waves) = layer(d, 0.5, 8192);
+            let grading = Grading::new(&follow_scales(&fractions, &waves, 128)).unwrap();
+            grading.fractions().iter().filter(|x| (**x - 0.5).abs() < 2.0 * d).count()
+        };
+        assert!(2 * within(0.002) > within(0.02), "{} and {}", within(0.002), within(0.02));
+    }
+
+    #[test]
+    fn equal_scales_make_equal_distances() {
+        let fractions: Vec<f64> = (0..50).map(|i| f64::from(i) / 50.0).collect();
+        assert!(follow_scales(&fractions, &[7.0; 50], 32).iter().all(|w| (w - 1.0 / 7.0).abs() < 1e-14));
+    }
+}

@@ -1,0 +1,138 @@
+//! Decides when a run goes on with other nodes: more where the solution asks for them, fewer where it allows. See
+//! `THEORY.md`, eqs. (D11) and (D12).
+
+use std::sync::Arc;
+
+use super::membrane::Membrane;
+use super::mesh::Mesh;
+use super::resolution::{LEAST_NODES, MOST_NODES, needed_nodes, unresolved};
+use super::scene::{Gauge, Nodes, Scene};
+use crate::flow::{Regrading, local_wave_numbers};
+use crate::geometry::{Grading, Layout, follow_scales, resample};
+use crate::operators::DerivativeFamily;
+
+/// Accepted steps between two looks at whether fewer nodes would do.
+const INTERVAL: u64 = 16;
+/// Part of the bound that new nodes meet, so that they serve for a while.
+const MARGIN: f64 = 0.3;
+/// Fewer nodes must save this part of them.
+const WORTHWHILE: f64 = 0.8;
+/// A grading that spreads less than this is not worth its products.
+const LEAST_SPREAD: f64 = 2.0;
+/// A new grading of as many nodes must lower what is not resolved by this factor.
+const BETTER: f64 = 0.3;
+
+/// What a scene leaves to the program.
+#[derive(Clone, Debug)]
+pub struct Adaptation {
+    /// Part of a state that may be left unresolved.
+    bound: f64,
+    /// Whether the number of nodes is free.
+    counts: bool,
+    /// Whether the grading is.
+    grades: bool,
+    family: DerivativeFamily,
+}
+
+/// The nodes that a run goes on with.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    pub mesh: Mesh,
+    /// Their grading, if it is a new one; otherwise the parameter s of each point of the curve stays.
+    pub regraded: Option<Option<Arc<Grading>>>,
+}
+
+impl Adaptation {
+    /// For `scene`; none if it leaves nothing to the program.
+    #[must_use]
+    pub fn of(scene: &Scene, family: DerivativeFamily) -> Option<Self> {
+        let counts = scene.accuracy.nodes == Nodes::Auto;
+        let grades = scene.flow.gauge == Gauge::Graded && scene.flow.grading.is_none();
+        (counts || grades).then(|| Self {
+            bound: unresolved_bound(scene.accuracy.tolerance),
+            counts,
+            grades,
+            family,
+        })
+    }
+
+    /// Other nodes for the spectral `state` of `membrane` after `steps` steps, `age` of them on these nodes; none if these
+    /// serve.
+    pub fn plan(&self, membrane: &mut Membrane, state: &[f64], mesh: &Mesh, age: u64) -> Option<Plan> {
+        let layout = membrane.layout();
+        let part = unresolved(layout, state, layout.nodes(), self.family);
+        let resolved = part <= self.bound;
+        if resolved && !age.is_multiple_of(INTERVAL) {
+            return None;
+        }
+        let aim = MARGIN * self.bound;
+        let same = self.count(layout, state, mesh, aim);
+        let regraded = if self.grades { self.regrade(membrane, state, mesh, aim) } else { None };
+        let nodes = mesh.nodes as f64;
+        if let Some((needed, rest, plan)) = regraded {
+            let fewer = (needed as f64) < WORTHWHILE * (same.min(mesh.nodes)) as f64;
+            let better = rest < BETTER * part && part > BETTER * self.bound;
+            if fewer || (!resolved && needed <= same && better) || (!self.counts && better) {
+                return Some(plan);
+            }
+        }
+        let worth = (same as f64) < WORTHWHILE * nodes || (!resolved && same > mesh.nodes);
+        (self.counts && worth).then(|| Plan { mesh: Self::with_nodes(mesh, same), regraded: None })
+    }
+
+    /// Nodes needed in the same parameter.
+    fn count(&self, layout: Layout, state: &[f64], mesh: &Mesh, aim: f64) -> usize {
+        if !self.counts {
+            return mesh.nodes;
+        }
+        needed_nodes(layout, state, aim, self.family).clamp(LEAST_NODES, MOST_NODES)
+    }
+
+    /// The best grading for `state`: how many nodes it needs, what they leave unresolved, and the plan.
+    fn regrade(
+        &self,
+        membrane: &mut Membrane,
+        state: &[f64],
+        mesh: &Mesh,
+        aim: f64,
+    ) -> Option<(usize, f64, Plan)> {
+        let flow = membrane.flow();
+        flow.set_current(state);
+        let waves = local_wave_numbers(flow);
+        let uniform = || (0..mesh.nodes).map(|i| i as f64 / mesh.nodes as f64).collect();
+        let fractions = flow.current().grading().map_or_else(uniform, Grading::fractions);
+        let graded = |nodes: usize| {
+            let samples = follow_scales(&fractions, &waves, nodes);
+            let (low, high) = extremes(&samples);
+            let spread = high > LEAST_SPREAD * low;
+            let grading = if spread { Some(Arc::new(Grading::new(&samples).ok()?)) } else { None };
+            Some((spread.then_some(samples), grading))
+        };
+        let turning_number = membrane.turning_number();
+        let layout = Layout::new(mesh.nodes, membrane.layout().densities());
+        let (_, grading) = graded(mesh.nodes)?;
+        let flow = membrane.flow();
+        let trial = Regrading::new(flow, layout, grading, turning_number).apply(flow, state).ok()?;
+        let needed = self.count(layout, &trial, mesh, aim);
+        let (samples, grading) = graded(needed)?;
+        let rest = unresolved(layout, &trial, needed, self.family);
+        let mesh = Mesh { nodes: needed, samples };
+        Some((needed, rest, Plan { mesh, regraded: Some(grading) }))
+    }
+
+    /// As many nodes in the same parameter.
+    fn with_nodes( mesh: &Mesh, nodes: usize) -> Mesh {
+        let samples = mesh.samples.as_ref().map(|samples| resample(samples, Grading::samples(nodes)));
+        Mesh { nodes, samples }
+    }
+}
+
+/// Least and largest value.
+fn extremes(values: &[f64]) -> (f64, f64) {
+    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(*value), high.max(*value)))
+}
+
+/// Part of a state that may be left unresolved for errors of about the tolerance.
+pub(super) fn unresolved_bound(tolerance: f64) -> f64 {
+    (0.1 * tolerance).max(1e-13)
+}

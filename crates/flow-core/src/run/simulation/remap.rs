@@ -1,0 +1,81 @@
+//! Goes on with other nodes: more or fewer, or crowded elsewhere.
+
+use std::time::Instant;
+
+use super::Simulation;
+use crate::flow::Regrading;
+use crate::integrator::{Adaptive, AdaptiveOptions, Bdf, Factorisation, Finish, Problem, Stepper};
+use crate::run::adaptation::Plan;
+use crate::run::mesh::Mesh;
+
+/// Part of the energy lost so far below which an energy counts as zero.
+const ENERGY_FLOOR: f64 = 1e-3;
+
+impl Simulation {
+    /// Takes other nodes if the state at hand asks for them or allows it.
+    pub(super) fn adapt(&mut self, time: f64, energy: f64) {
+        let Some(adaptation) = &self.adaptation else { return };
+        let clock = Instant::now();
+        let age = self.counters().steps - self.remapped_at;
+        let state = self.integration.stepper().state();
+        if let Some(plan) = adaptation.plan(&mut self.membrane, state, &self.mesh, age)
+            && self.remap(&plan, time, energy).is_none()
+        {
+            self.refused_remaps += 1;
+        }
+        self.record.counters.integration_seconds += clock.elapsed().as_secs_f64();
+    }
+
+    /// Carries the past states over to the nodes of `plan` and goes on with the same order and step size; none if a state cannot
+    /// be had there, or fewer nodes change the energy by more than the tolerance.
+    fn remap(&mut self, plan: &Plan, time: f64, energy: f64) -> Option<()> {
+        let turning_number = self.membrane.turning_number();
+        let built = match &plan.regraded {
+            Some(grading) => self.gauges.build_on(plan.mesh.nodes, grading.clone(), turning_number),
+            None => self.gauges.build(&plan.mesh, turning_number),
+        };
+        let (mut membrane, diagnostics) = built.ok()?;
+        let mut memory = self.integration.stepper().memory();
+        match &plan.regraded {
+            None => {
+                let (old, new) = (self.membrane.flow().spectral_layout(), membrane.flow().spectral_layout());
+                for (_, state) in &mut memory.points {
+                    *state = old.resampled(state, &new);
+                }
+            }
+            Some(grading) => {
+                let flow = self.membrane.flow();
+                let mut way = Regrading::new(flow, membrane.layout(), grading.clone(), turning_number);
+                for (_, state) in &mut memory.points {
+                    *state = way.apply(flow, state).ok()?;
+                }
+            }
+        }
+        membrane.follow(&self.membrane);
+        let Finish::Good { energy: new_energy, .. } = membrane.finish(time, &mut memory.points[0].1) else {
+            return None;
+        };
+        let error = new_energy - energy;
+        let scale = energy.abs().max(ENERGY_FLOOR * (self.start.energy - energy).abs());
+        if !resolves_more(plan, &self.mesh) && error.abs() > self.tolerance * scale {
+            return None;
+        }
+        memory.factorisation = Factorisation::default();
+        let stepper = Bdf::resume(&membrane, memory, self.tolerance);
+        let options = AdaptiveOptions { end: self.next_stop(), ..*self.integration.options() };
+        let mut counters = *self.integration.counters();
+        counters.remaps += 1;
+        self.start.remap_error += error;
+        self.integration = Adaptive::new(stepper, options, new_energy, counters);
+        (self.membrane, self.diagnostics) = (membrane, diagnostics);
+        self.scratch = vec![0.0; self.membrane.size()];
+        self.mesh = plan.mesh.clone();
+        self.remapped_at = counters.steps;
+        Some(())
+    }
+}
+
+/// Whether the plan is to take more nodes: what they change was an error of those at hand.
+fn resolves_more(plan: &Plan, mesh: &Mesh) -> bool {
+    plan.regraded.is_none() && plan.mesh.nodes > mesh.nodes
+}
