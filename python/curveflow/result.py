@@ -204,7 +204,7 @@ class Result:
     def steps(self) -> Mapping[str, NDArray[Any]]:
         """The log of accepted steps, arrays of shape (step,).
 
-        ``time``, ``energy`` and ``dissipation`` at the end of the step, its ``size``, the ``order`` of the method,
+        ``time``, ``energy`` and ``dissipation`` at the end of the step, its ``size``, the ``order`` of the method, the number of ``nodes``,
         and the attempts rejected before it by cause: ``rejections_error``, ``rejections_solver``,
         ``rejections_energy_rise`` and ``rejections_not_finite``.
         """

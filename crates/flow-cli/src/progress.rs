@@ -81,7 +81,7 @@ impl LadderObserver for Reporter {
         let message = match leg {
             Leg::Scout { tolerance } => format!("the scene itself, at tolerance {tolerance:e}"),
             Leg::Reference { tolerance, nodes } => {
-                format!("the reference, at tolerance {tolerance:e} with {nodes} nodes")
+                format!("the reference, at tolerance {tolerance:e} ({nodes})")
             }
             Leg::Rung { tolerance, number, count } => {
                 format!("run {number} of {count}, at tolerance {tolerance:e}")

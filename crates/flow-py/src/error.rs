@@ -44,7 +44,7 @@ impl PythonError for TradeoffError {
     fn class(&self) -> &'static str {
         match self {
             Self::Setup(error) => error.class(),
-            Self::FewerNodes { .. } | Self::TooManyNodes { .. } => "LadderError",
+            Self::FewerNodes { .. } => "LadderError",
             _ => "TradeoffError",
         }
     }

@@ -173,6 +173,7 @@ impl Record {
         steps.set_item("energy", copied(py, &log.energy))?;
         steps.set_item("dissipation", copied(py, &log.dissipation))?;
         steps.set_item("order", copied(py, &log.order))?;
+        steps.set_item("nodes", copied(py, &log.nodes))?;
         for (name, count) in CAUSES {
             let counts: Vec<u64> = log.rejections.iter().map(count).collect();
             steps.set_item(name, vector(py, counts))?;

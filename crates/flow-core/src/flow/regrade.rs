@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::gradient_flow::GradientFlow;
 use crate::geometry::{
     Closure, ClosureError, Complex64, Grading, Layout, PeriodicGrid, ScatteredPoints, SpectralLayout,
+    parameters_of_fractions,
 };
 
 /// A state on other nodes.
@@ -15,11 +16,6 @@ pub struct Regraded {
     /// Its energy less that of the original: the difference of the errors of the two discretisations.
     pub energy_error: f64,
 }
-
-/// Passes of Newton's method; the start is within the square of a node distance.
-const MOST_PASSES: usize = 20;
-/// Error of the fraction of the arc length that is rounding.
-const FOUND: f64 = 1e-15;
 
 /// The spectral `state` of the flow `from` on the nodes of the flow `to`, of the same energy and any gauge, grading and number
 /// of nodes. A metric that is a field starts as the grading of `to`. Turning number, masses and length are kept to rounding; the placement, a mean over the curve, is as it was.
@@ -74,7 +70,7 @@ impl Regrading {
         let uniform = || (0..nodes).map(|i| i as f64 / nodes as f64).collect();
         let fractions: Vec<f64> = grading.as_ref().map_or_else(uniform, |grading| grading.fractions());
         let old = from.current().grading();
-        let parameters = old.map_or_else(|| fractions.clone(), |old| parameters(old, &fractions));
+        let parameters = old.map_or_else(|| fractions.clone(), |old| parameters_of_fractions(old, &fractions));
         Self {
             points: ScatteredPoints::new(from.layout().nodes(), &parameters),
             grid: PeriodicGrid::new(nodes),
@@ -119,39 +115,4 @@ impl Regrading {
         self.closure.project(turning, length, self.turning_number, 0.0)?;
         Ok(out)
     }
-}
-
-/// Parameters of the nodes of `grading` where the `fractions` of the arc length are reached, by Newton's method within the
-/// interval between two nodes.
-fn parameters(grading: &Grading, fractions: &[f64]) -> Vec<f64> {
-    let nodes = grading.nodes();
-    let mut grid = PeriodicGrid::new(nodes);
-    let mut spectra = [vec![Complex64::default(); grid.modes()], vec![Complex64::default(); grid.modes()]];
-    grid.transform(grading.shift(), &mut spectra[0]);
-    grid.transform(grading.weight(), &mut spectra[1]);
-    let at_nodes = grading.fractions();
-    let interval = |x: &f64| {
-        let right = at_nodes.partition_point(|at| at <= x);
-        [right.max(1) - 1, right.max(1)].map(|i| i as f64 / nodes as f64)
-    };
-    let mut intervals: Vec<[f64; 2]> = fractions.iter().map(interval).collect();
-    let mut found: Vec<f64> = intervals.iter().map(|[low, high]| 0.5 * (low + high)).collect();
-    for _ in 0..MOST_PASSES {
-        let mut points = ScatteredPoints::new(nodes, &found);
-        let [shifts, slopes] = spectra.each_ref().map(|spectrum| points.values(spectrum));
-        let mut worst = 0.0_f64;
-        for (i, s) in found.iter_mut().enumerate() {
-            let excess = *s + shifts[i] - fractions[i];
-            worst = worst.max(excess.abs());
-            intervals[i][usize::from(excess > 0.0)] = *s;
-            let [low, high] = intervals[i];
-            let aim = *s - excess / slopes[i];
-            // A node itself may be the solution, to rounding.
-            *s = if (low..=high).contains(&aim) { aim } else { 0.5 * (low + high) };
-        }
-        if worst <= FOUND {
-            break;
-        }
-    }
-    found
 }

@@ -27,6 +27,6 @@ pub use gradation::follow_scales;
 pub use grading::{Grading, GradingError};
 pub use grid::{Complex64, PeriodicGrid};
 pub use measures::enclosed_area;
-pub use resampling::{ScatteredPoints, resample, resample_spectrum};
+pub use resampling::{ScatteredPoints, parameters_of_fractions, resample, resample_spectrum};
 pub use spectral::SpectralLayout;
 pub use state::{Layout, StateRef};

@@ -1,7 +1,8 @@
 //! Trigonometric polynomials on other grids and at scattered points.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
+use super::grading::Grading;
 use super::grid::{Complex64, PeriodicGrid};
 
 /// The coefficients on a grid of `to` nodes of the polynomial with the coefficients `spectrum` on `nodes` nodes. Modes that the
@@ -33,13 +34,15 @@ pub fn resample(values: &[f64], count: usize) -> Vec<f64> {
 
 /// Width of the kernel in nodes of the fine grid; the error is then rounding.
 const WIDTH: usize = 14;
-/// Shape of the Kaiser–Bessel kernel for a grid twice as fine.
-const SHAPE: f64 = 0.75 * PI * WIDTH as f64;
+/// Shape of the kernel e^{β(√(1−z²) − 1)} for a grid twice as fine.
+const SHAPE: f64 = 2.3 * WIDTH as f64;
+/// Points of the trapezoidal rule for the coefficients of the kernel: exact to rounding.
+const QUADRATURE: usize = 40;
 
 /// Scattered parameters at which trigonometric polynomials are evaluated, in O(n log n).
 ///
-/// The coefficients are divided by those of a Kaiser–Bessel kernel and transformed to a grid twice as fine; each value is a sum
-/// over [`WIDTH`] of its nodes (Jackson, Meyer, Nishimura & Macovski, IEEE Trans. Med. Imaging 10 (1991) 473).
+/// The coefficients are divided by those of a kernel and transformed to a grid twice as fine; each value is a sum over [`WIDTH`]
+/// of its nodes (Barnett, Magland & af Klinteberg, SIAM J. Sci. Comput. 41 (2019) C479).
 #[derive(Clone, Debug)]
 pub struct ScatteredPoints {
     nodes: usize,
@@ -53,30 +56,33 @@ pub struct ScatteredPoints {
 }
 
 impl ScatteredPoints {
-    /// The parameters `points`, for polynomials given on `nodes` nodes.
+    /// The parameters `places`, for polynomials given on `nodes` nodes.
     #[must_use]
-    pub fn new(nodes: usize, points: &[f64]) -> Self {
+    pub fn new(nodes: usize, places: &[f64]) -> Self {
         let fine = PeriodicGrid::new((2 * nodes).max(2 * WIDTH));
         let count = fine.nodes() as f64;
-        let peak = bessel_i0(SHAPE);
         let weights = |s: &f64| {
             let place = s.rem_euclid(1.0) * count;
             let first = (place - 0.5 * WIDTH as f64).ceil();
             let weights = std::array::from_fn(|i| {
                 let z = (first + i as f64 - place) / (0.5 * WIDTH as f64);
-                bessel_i0(SHAPE * (1.0 - z * z).max(0.0).sqrt()) / peak
+                (SHAPE * ((1.0 - z * z).max(0.0).sqrt() - 1.0)).exp()
             });
             (first.rem_euclid(count) as usize % fine.nodes(), weights)
         };
-        let coefficient = |mode: usize| {
+        // ∫ e^{β(√(1−z²) − 1)} cos kz dz with z = sin t, over half of the kernel, twice.
+        let points: [(f64, f64); QUADRATURE] = std::array::from_fn(|i| {
+            let t = (i as f64 + 0.5) / QUADRATURE as f64 * FRAC_PI_2;
+            (t.sin(), WIDTH as f64 * FRAC_PI_2 / QUADRATURE as f64 * t.cos() * (SHAPE * (t.cos() - 1.0)).exp())
+        });
+        let coefficient = |mode: usize| -> f64 {
             let wave = PI * WIDTH as f64 * mode as f64 / count;
-            let root = (SHAPE * SHAPE - wave * wave).sqrt();
-            WIDTH as f64 * root.sinh() / (root * peak)
+            points.iter().map(|(z, weight)| weight * (wave * z).cos()).sum()
         };
         Self {
             nodes,
             deconvolution: (0..=nodes / 2).map(|mode| 1.0 / coefficient(mode)).collect(),
-            points: points.iter().map(weights).collect(),
+            points: places.iter().map(weights).collect(),
             spectrum: vec![Complex64::default(); fine.modes()],
             values: vec![0.0; fine.nodes()],
             fine,
@@ -99,17 +105,51 @@ impl ScatteredPoints {
     }
 }
 
-/// Modified Bessel function I₀ by its power series; all terms are positive.
-fn bessel_i0(x: f64) -> f64 {
-    let quarter = 0.25 * x * x;
-    let (mut term, mut sum) = (1.0, 1.0);
-    let mut k = 1.0;
-    while term > 1e-17 * sum {
-        term *= quarter / (k * k);
-        sum += term;
-        k += 1.0;
+/// Passes of Newton's method; the start is within the square of a node distance.
+const MOST_PASSES: usize = 8;
+/// Error of the fraction of the arc length that is rounding.
+const FOUND: f64 = 4e-15;
+
+/// Parameters of the nodes of `grading` where the `fractions` of the arc length are reached, by Newton's method within the
+/// interval between two nodes.
+#[must_use]
+pub fn parameters_of_fractions(grading: &Grading, fractions: &[f64]) -> Vec<f64> {
+    let nodes = grading.nodes();
+    let mut grid = PeriodicGrid::new(nodes);
+    let mut spectra = [vec![Complex64::default(); grid.modes()], vec![Complex64::default(); grid.modes()]];
+    grid.transform(grading.shift(), &mut spectra[0]);
+    grid.transform(grading.weight(), &mut spectra[1]);
+    let at_nodes = grading.fractions();
+    let interval = |x: &f64| {
+        let right = at_nodes.partition_point(|at| at <= x);
+        [right.max(1) - 1, right.max(1)].map(|i| i as f64 / nodes as f64)
+    };
+    let mut intervals: Vec<[f64; 2]> = fractions.iter().map(interval).collect();
+    let inverse = |(x, [low, high]): (&f64, &[f64; 2])| {
+        let left = (low * nodes as f64).round() as usize;
+        let reached = at_nodes[left];
+        let next = at_nodes.get(left + 1).copied().unwrap_or(1.0);
+        (low + (high - low) * (x - reached) / (next - reached)).clamp(*low, *high)
+    };
+    let mut found: Vec<f64> = fractions.iter().zip(&intervals).map(inverse).collect();
+    for _ in 0..MOST_PASSES {
+        let mut points = ScatteredPoints::new(nodes, &found);
+        let [shifts, slopes] = spectra.each_ref().map(|spectrum| points.values(spectrum));
+        let mut worst = 0.0_f64;
+        for (i, s) in found.iter_mut().enumerate() {
+            let excess = *s + shifts[i] - fractions[i];
+            worst = worst.max(excess.abs());
+            intervals[i][usize::from(excess > 0.0)] = *s;
+            let [low, high] = intervals[i];
+            let aim = *s - excess / slopes[i];
+            // A node itself may be the solution, to rounding.
+            *s = if (low..=high).contains(&aim) { aim } else { 0.5 * (low + high) };
+        }
+        if worst <= FOUND {
+            break;
+        }
     }
-    sum
+    found
 }
 
 #[cfg(test)]

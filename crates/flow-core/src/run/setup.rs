@@ -61,7 +61,7 @@ impl Setup {
         let membrane = Membrane::new(flow, solver, curve.turning_number, curve.angle);
         let placement = Placement { angle: curve.angle, centre: curve.centre };
         let gauges = Gauges::new(scene, initial, &mesh)?;
-        let adaptation = Adaptation::of(scene, family(scene.accuracy.derivative));
+        let adaptation = Adaptation::of(scene);
         Ok(Self { membrane, state, placement, diagnostics, closure_defect, gauges, mesh, adaptation })
     }
 }
@@ -90,7 +90,7 @@ fn start(scene: &Scene, shape: &Shape, length: f64) -> Result<Start, SetupError>
     if scene.flow.gauge != Gauge::Graded && fronts > MOST_NODES as f64 {
         return Err(SetupError::TooManyNodes { needed: fronts, most: MOST_NODES });
     }
-    let (mut nodes, family) = (nodes, family(scene.accuracy.derivative));
+    let (mut nodes, family) = (nodes, family(scene, false));
     loop {
         match start_on(scene, shape, nodes) {
             Ok(start) => {
@@ -138,7 +138,8 @@ pub(super) fn flow(
 ) -> Result<(GradientFlow, Diagnostics), SetupError> {
     let layout = layout(scene, nodes);
     let grid = PeriodicGrid::new(nodes);
-    let derivative = Derivative::graded(family(scene.accuracy.derivative), &grid, grading);
+    let family = family(scene, grading.is_some());
+    let derivative = Derivative::graded(family, &grid, grading);
     let terms = energy_terms(scene, initial, nodes)?;
     let diagnostics = Diagnostics::new(scene, initial, layout, &derivative)?;
     let energy = EnergySum::new(terms, layout, &grid, &derivative);
@@ -226,8 +227,12 @@ pub fn shape(shape: &scene::Shape) -> Shape {
     }
 }
 
-fn family(derivative: scene::Derivative) -> DerivativeFamily {
-    match derivative {
+/// The family of derivatives of `scene` on nodes that are `graded` or not.
+pub(super) fn family(scene: &Scene, graded: bool) -> DerivativeFamily {
+    let follows = scene.flow.gauge == Gauge::Graded && scene.flow.grading.is_none();
+    match scene.accuracy.derivative {
+        scene::Derivative::Auto if graded && follows => DerivativeFamily::Central8,
+        scene::Derivative::Auto => DerivativeFamily::Fourier,
         scene::Derivative::Fourier => DerivativeFamily::Fourier,
         scene::Derivative::Central2 => DerivativeFamily::Central2,
         scene::Derivative::Central4 => DerivativeFamily::Central4,

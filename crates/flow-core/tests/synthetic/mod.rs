@@ -25,6 +25,7 @@ pub fn record(frames: usize, nodes: usize, densities: &[&str]) -> Record {
             energy: times.iter().map(|t| 4.0 + 3.0 * (-t).exp()).collect(),
             dissipation: times.iter().map(|t| (-t).exp()).collect(),
             order: times.iter().map(|_| 4).collect(),
+            nodes: times.iter().map(|_| 48).collect(),
             rejections: times
                 .iter()
                 .map(|t| if *t > 1.0 { rejection } else { Rejections::default() })

@@ -117,6 +117,7 @@ impl Content {
             *(entry.slot)(&mut steps) = self.values(&format!("steps/{}", entry.name), Some(count))?;
         }
         steps.order = self.values("steps/order", Some(count))?;
+        steps.nodes = self.values("steps/nodes", Some(count))?;
         for cause in CAUSES {
             let counts = self.values(&format!("steps/rejections/{}", cause.name), Some(count))?;
             let all = steps.rejections.iter_mut().zip(counts);

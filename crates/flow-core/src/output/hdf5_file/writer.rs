@@ -99,6 +99,8 @@ fn write_steps(file: &File, record: &Record) -> Result<(), StorageError> {
     }
     let meaning = Meaning { long_name: "order of the method", units: "1" };
     dataset(&group, "order", &[&step], &meaning, &steps.order)?;
+    let meaning = Meaning { long_name: "number of nodes in the step", units: "1" };
+    dataset(&group, "nodes", &[&step], &meaning, &steps.nodes)?;
     let rejections = group.create_group("rejections").map_err(building("rejections"))?;
     for cause in CAUSES {
         let counts: Vec<u64> = steps.rejections.iter().map(|counts| *(cause.get)(counts)).collect();
@@ -139,6 +141,7 @@ fn check_rectangular(record: &Record) -> Result<(), StorageError> {
         check("steps", index, (entry.get)(&record.steps).len(), steps)?;
     }
     check("steps/order", 0, record.steps.order.len(), steps)?;
+    check("steps/nodes", 0, record.steps.nodes.len(), steps)?;
     check("steps/rejections", 0, record.steps.rejections.len(), steps)
 }
 

@@ -71,8 +71,12 @@ impl Membrane {
         }
     }
 
-    /// Goes on from where `before` stands at `time`, with what it keeps.
+    /// Goes on from where `before` stands, with what it keeps and the linear solver that served it.
     pub fn follow(&mut self, before: &Self) {
+        if before.banded.is_none() {
+            self.turn_to_banded();
+        }
+        self.mean_iterations = before.mean_iterations;
         self.invariants.set_kept_values(before.invariants.kept_values());
         self.start_angle = before.start_angle;
         self.placed = before.placed;

@@ -40,10 +40,22 @@ pub enum Nodes {
     Count(usize),
 }
 
+impl std::fmt::Display for Nodes {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Auto => f.write_str("as many nodes as it needs"),
+            Self::Count(count) => write!(f, "{count} nodes"),
+        }
+    }
+}
+
 names! {
     /// The discrete derivative; all are exactly skew.
     pub enum Derivative {
-        /// Trigonometric interpolation. The default.
+        /// `fourier`, but `central-8` on graded nodes that follow the solution: its linear systems are the easier ones there.
+        /// The default.
+        Auto = "auto",
+        /// Trigonometric interpolation.
         Fourier = "fourier",
         /// Central differences of order 2.
         Central2 = "central-2",
@@ -75,7 +87,7 @@ impl Default for Accuracy {
         Self {
             tolerance: 1e-5,
             nodes: Nodes::Auto,
-            derivative: Derivative::Fourier,
+            derivative: Derivative::Auto,
             linear_solver: LinearSolver::Auto,
         }
     }

@@ -14,7 +14,7 @@ use super::overrides;
 use super::report::Report;
 use super::section::Section;
 use super::shipped::SHIPPED;
-use super::{Accuracy, Curve, Density, Energy, Flow, Gauge, Nodes, Output, Time};
+use super::{Accuracy, Curve, Density, Energy, Flow, Gauge, Output, Time};
 
 /// Longer texts are not scenes.
 pub const MAX_SCENE_BYTES: usize = 1 << 20;
@@ -121,14 +121,6 @@ impl Scene {
     #[must_use]
     pub fn to_toml(&self) -> String {
         toml::to_string(self).expect("every scene can be written as TOML")
-    }
-
-    /// [`Scene::to_toml`] with the number of nodes that was chosen.
-    #[must_use]
-    pub fn resolved(&self, nodes: usize) -> String {
-        let mut resolved = self.clone();
-        resolved.accuracy.nodes = Nodes::Count(nodes);
-        resolved.to_toml()
     }
 
     /// The same scene, as if it had been read from `text`.

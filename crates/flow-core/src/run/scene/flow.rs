@@ -19,7 +19,7 @@ pub struct Flow {
     /// The rule for the tangential velocity.
     pub gauge: Gauge,
     /// The metric of the graded gauge, and the first one of the co-moving gauge, an expression of `s` in `[0, 1)` up to a
-    /// factor: nodes crowd where it is small.
+    /// factor: nodes crowd where it is small. Without one the nodes of the graded gauge follow the solution.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(transform = Within(Bound::Positive))]
     pub grading: Option<Formula>,
@@ -59,9 +59,6 @@ names! {
     }
 }
 
-/// Two crowded places.
-const GRADING: &str = "grading = \"1 + 0.6*cos(4*pi*s)\"";
-
 impl Default for Flow {
     fn default() -> Self {
         Self {
@@ -100,7 +97,6 @@ impl Gauge {
         let grading = section.get("grading");
         let known = gauge.unwrap_or(Flow::default().gauge);
         match (known, &grading) {
-            (Gauge::Graded, None) => section.fault("grading", Fault::MissingKey { example: GRADING }),
             (Gauge::Graded | Gauge::CoMoving, Some(_)) => {}
             // A gauge that is not known has its own message.
             (other, Some(_)) if gauge.is_some() || !section.has("gauge") => {

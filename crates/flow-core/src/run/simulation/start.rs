@@ -57,7 +57,7 @@ impl Simulation {
         let record = Record {
             title: scene.title.clone(),
             scene: scene.text().to_owned(),
-            resolved_scene: scene.resolved(membrane.flow().layout().nodes()),
+            resolved_scene: scene.to_toml(),
             energy_terms: membrane.flow().energy_terms().names().map(str::to_owned).collect(),
             densities: scene.density.iter().map(|density| density.name.clone()).collect(),
             fields: diagnostics.field_names(),

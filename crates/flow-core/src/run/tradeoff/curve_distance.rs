@@ -22,18 +22,19 @@ pub(super) struct Curve {
 }
 
 impl Curve {
-    /// The curve of `frame` on `count` nodes, at least as many as it has.
-    pub fn new(frame: &Frame, count: usize) -> Self {
+    /// The curve of `frame`.
+    pub fn new(frame: &Frame) -> Self {
         let axis = |k: usize| {
-            let interpolant = Interpolant::new(&frame.position.iter().map(|at| at[k]).collect::<Vec<_>>());
-            (interpolant.resampled(count), interpolant.slopes(count))
+            let values: Vec<f64> = frame.position.iter().map(|at| at[k]).collect();
+            let slopes = Interpolant::new(&values).slopes(values.len());
+            (values, slopes)
         };
         let ((x, x_s), (y, y_s)) = (axis(0), axis(1));
         let unit = |(x_s, y_s): (f64, f64)| [x_s / x_s.hypot(y_s), y_s / x_s.hypot(y_s)];
         Self {
             position: x.into_iter().zip(y).map(|(x, y)| [x, y]).collect(),
             tangent: x_s.into_iter().zip(y_s).map(unit).collect(),
-            curvature: Interpolant::new(&frame.curvature).resampled(count),
+            curvature: frame.curvature.clone(),
         }
     }
 
@@ -122,26 +123,26 @@ mod tests {
 
     #[test]
     fn motions_and_labels_are_no_distance() {
-        let reference = Curve::new(&ellipse([2.0, 1.0], 64, 0.0), 128);
+        let reference = Curve::new(&ellipse([2.0, 1.0], 64, 0.0).resampled(128));
         let mut moved = ellipse([2.0, 1.0], 128, 1e-3);
         let (sin, cos) = 1e-2_f64.sin_cos();
         for point in &mut moved.position {
             let [x, y] = *point;
             *point = [cos * x - sin * y + 0.02, sin * x + cos * y - 0.01];
         }
-        let found = largest(&Curve::new(&moved, 128), &reference);
+        let found = largest(&Curve::new(&moved.resampled(128)), &reference);
         // The labels are 1e-3 apart: the osculating circle leaves the curve with the third power of that.
         assert!(found < 1e-8, "{found:.1e}");
     }
 
     #[test]
     fn what_no_motion_removes_is_the_distance() {
-        let reference = Curve::new(&ellipse([2.0, 1.0], 64, 0.0), 64);
-        let longer = Curve::new(&ellipse([2.0 + 1e-6, 1.0], 64, 0.0), 64);
+        let reference = Curve::new(&ellipse([2.0, 1.0], 64, 0.0));
+        let longer = Curve::new(&ellipse([2.0 + 1e-6, 1.0], 64, 0.0));
         // Largest at the ends of the long axis, to which no shift or rotation helps.
         assert!((largest(&longer, &reference) - 1e-6).abs() < 1e-9);
-        let circle = Curve::new(&ellipse([1.0, 1.0], 32, 0.0), 32);
-        let grown = Curve::new(&ellipse([1.1, 1.1], 32, 0.3), 32);
+        let circle = Curve::new(&ellipse([1.0, 1.0], 32, 0.0));
+        let grown = Curve::new(&ellipse([1.1, 1.1], 32, 0.3));
         assert!((largest(&grown, &circle) - 0.1).abs() < 1e-12);
     }
 }

@@ -1,6 +1,6 @@
 //! What can go wrong with one run of a ladder, and with the whole of it.
 
-use super::super::resolution;
+use super::super::scene::Nodes;
 use super::super::setup_error::SetupError;
 
 /// Why a run of a ladder has no result.
@@ -32,22 +32,15 @@ pub enum TradeoffError {
     Scout { tolerance: f64, source: RunError },
     /// The reference failed.
     #[error(
-        "the reference at tolerance {tolerance:e} with {nodes} nodes failed, so there is nothing to measure against; try \
+        "the reference at tolerance {tolerance:e} ({nodes}) failed, so there is nothing to measure against; try \
          a ladder that ends at a larger tolerance"
     )]
-    Reference { tolerance: f64, nodes: usize, source: RunError },
+    Reference { tolerance: f64, nodes: Nodes, source: RunError },
     /// The reference would be coarser than what it measures.
     #[error(
         "the reference has {nodes} nodes, but the tightest run {least}: it must not have fewer; try {}", 2 * .least
     )]
     FewerNodes { nodes: usize, least: usize },
-    /// Twice the nodes of the tightest run are too many.
-    #[error(
-        "the tightest run has {nodes} nodes, and a reference with twice as many is not allowed: {} is the most; give the \
-         reference a number of nodes, or end the ladder at a larger tolerance",
-        resolution::MOST_NODES
-    )]
-    TooManyNodes { nodes: usize },
     /// An observer asked to stop before the reference was complete.
     #[error("interrupted before the reference was complete: nothing is measured yet")]
     Interrupted,

@@ -1,7 +1,6 @@
 //! The distance of two states of the same flow: `THEORY.md`, eq. (I8).
 
 use super::super::equilibrium::energy_scale;
-use super::super::interpolant::Interpolant;
 use super::super::record::Frame;
 use super::curve_distance::{Curve, distances};
 
@@ -21,13 +20,12 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// Of `frame` against `reference`, which may have other nodes: both are interpolated to the more of them.
+    /// Of `frame` against `reference`, which may have other nodes: both are interpolated to the more of them, or, unless all are
+    /// equidistant, to those of the reference.
     pub(super) fn of(frame: &Frame, reference: &Frame, initial_energy: f64) -> Self {
-        let count = frame.curvature.len().max(reference.curvature.len());
-        let on = |values: &[f64]| Interpolant::new(values).resampled(count);
-        let weight = on(&reference.metric);
-        let l2 = |values: &[f64], exact: &[f64]| relative_l2(&on(values), &on(exact), &weight);
-        let distances = distances(&Curve::new(frame, count), &Curve::new(reference, count));
+        let [frame, reference] = &on_common_nodes(frame, reference);
+        let l2 = |values: &[f64], exact: &[f64]| relative_l2(values, exact, &reference.metric);
+        let distances = distances(&Curve::new(frame), &Curve::new(reference));
         let densities = frame.density.iter().zip(&reference.density);
         Self {
             curve: distances.into_iter().fold(0.0, larger) / reference.length,
@@ -52,6 +50,22 @@ impl Errors {
     pub fn largest(&self) -> f64 {
         let others = [self.curve, self.curvature, self.energy, self.length];
         others.into_iter().chain(self.densities.iter().copied()).fold(0.0, larger)
+    }
+}
+
+/// Two frames at equal fractions of the arc length.
+fn on_common_nodes(frame: &Frame, reference: &Frame) -> [Frame; 2] {
+    let count = frame.curvature.len().max(reference.curvature.len());
+    let both = [frame, reference].map(Frame::clone);
+    if frame.is_uniform() && reference.is_uniform() {
+        return both.map(|frame| frame.resampled(count));
+    }
+    let [frame, reference] = both;
+    let moved = reference.fractions().and_then(|fractions| frame.clone().at_fractions(&fractions));
+    // A metric that is not positive has no fractions: the parameters are the best there is.
+    match moved {
+        Some(frame) => [frame, reference],
+        None => [frame, reference].map(|frame| frame.resampled(count)),
     }
 }
 

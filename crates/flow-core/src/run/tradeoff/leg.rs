@@ -2,9 +2,7 @@
 
 use super::super::observer::Observer;
 use super::super::record::{Frame, Record, StopReason};
-use super::super::scene::{Frames, Nodes, Output, Scene};
-use super::super::setup::Setup;
-use super::super::setup_error::SetupError;
+use super::super::scene::{Frames, Output, Scene};
 use super::super::simulation::run;
 use super::error::RunError;
 use super::span::{Ending, Span};
@@ -35,14 +33,6 @@ pub(super) fn rung(scene: &Scene, tolerance: f64, span: &Span) -> Scene {
     rung.flow.stop_on_contact = false;
     rung.output = Output { frames: Frames::At { times: vec![span.halfway] }, fields: Vec::new() };
     rung
-}
-
-/// Number of nodes that `scene` will have.
-pub(super) fn nodes(scene: &Scene) -> Result<usize, SetupError> {
-    match scene.accuracy.nodes {
-        Nodes::Count(nodes) => Ok(nodes),
-        Nodes::Auto => Ok(Setup::new(scene)?.membrane.layout().nodes()),
-    }
 }
 
 /// Runs the scene of [`rung`] once.

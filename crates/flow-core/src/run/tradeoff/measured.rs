@@ -9,7 +9,6 @@ use super::ladder::Ladder;
 use super::leg::{self, Outcome};
 use super::observer::{LadderObserver, Leg};
 use super::span::{Span, halfway};
-use crate::run::resolution;
 
 /// A measured ladder.
 #[derive(Debug)]
@@ -110,15 +109,15 @@ pub fn tradeoff(
 ) -> Result<Tradeoff, TradeoffError> {
     let span = scout(scene, observer)?;
     let (tolerance, at_rounding) = ladder.reference();
-    let nodes = reference_nodes(scene, ladder, &span)?;
+    let nodes = reference_nodes(scene, ladder)?;
     observer.before_run(&Leg::Reference { tolerance, nodes });
     let mut tight = leg::rung(scene, tolerance, &span);
-    tight.accuracy.nodes = Nodes::Count(nodes);
+    tight.accuracy.nodes = nodes;
     let truth = leg::once(&tight, observer).map_err(|error| match error {
         RunError::Interrupted => TradeoffError::Interrupted,
         source => TradeoffError::Reference { tolerance, nodes, source },
     })?;
-    let (steps, seconds) = (truth.steps, truth.seconds);
+    let (nodes, steps, seconds) = (truth.nodes, truth.steps, truth.seconds);
     Ok(Tradeoff {
         title: scene.title.clone(),
         densities: scene.density.iter().map(|density| density.name.clone()).collect(),
@@ -146,17 +145,14 @@ fn scout(scene: &Scene, observer: &mut dyn LadderObserver) -> Result<Span, Trade
     Ok(Span { halfway: halfway(&record), end, ending })
 }
 
-/// As many as asked for; else those of the scene, or twice those of the tightest rung where they are automatic.
-fn reference_nodes(scene: &Scene, ladder: &Ladder, span: &Span) -> Result<usize, TradeoffError> {
-    let tightest = leg::rung(scene, ladder.tightest(), span);
-    let least = leg::nodes(&tightest).map_err(TradeoffError::Setup)?;
+/// As many as asked for, or else those of the scene: where they are automatic, as many as its tolerance needs.
+fn reference_nodes(scene: &Scene, ladder: &Ladder) -> Result<Nodes, TradeoffError> {
     match (ladder.reference_nodes(), scene.accuracy.nodes) {
-        (Some(nodes), _) if nodes < least => Err(TradeoffError::FewerNodes { nodes, least }),
-        (Some(nodes), _) | (None, Nodes::Count(nodes)) => Ok(nodes),
-        (None, Nodes::Auto) if 2 * least > resolution::MOST_NODES => {
-            Err(TradeoffError::TooManyNodes { nodes: least })
+        (Some(nodes), Nodes::Count(least)) if nodes < least => {
+            Err(TradeoffError::FewerNodes { nodes, least })
         }
-        (None, Nodes::Auto) => Ok(2 * least),
+        (Some(nodes), _) => Ok(Nodes::Count(nodes)),
+        (None, nodes) => Ok(nodes),
     }
 }
 

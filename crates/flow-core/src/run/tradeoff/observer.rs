@@ -1,5 +1,6 @@
 //! Who watches a ladder: told before every run, then after every step of it.
 
+use crate::run::scene::Nodes;
 use super::super::observer::{Observer, Quiet};
 
 /// A run of the ladder that is about to start.
@@ -16,7 +17,7 @@ pub enum Leg {
         /// Its tolerance.
         tolerance: f64,
         /// Its number of nodes.
-        nodes: usize,
+        nodes: Nodes,
     },
     /// One that is measured.
     Rung {

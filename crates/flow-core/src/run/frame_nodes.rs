@@ -1,0 +1,60 @@
+//! Frames on other nodes.
+
+use super::record::Frame;
+use crate::geometry::{Complex64, Grading, PeriodicGrid, ScatteredPoints, parameters_of_fractions, resample};
+
+/// Spread of the metric, relative to the length, that is rounding.
+const UNIFORM: f64 = 1e-12;
+
+impl Frame {
+    /// Whether every field has a value for each node.
+    #[must_use]
+    pub fn is_consistent(&self) -> bool {
+        let nodes = self.curvature.len();
+        let fields = [&self.metric, &self.normal_velocity].into_iter().chain(&self.density).chain(&self.fields);
+        self.position.len() == nodes && fields.into_iter().all(|field| field.len() == nodes)
+    }
+
+    /// The same frame on `nodes` nodes at the same parameters s, by trigonometric interpolation.
+    #[must_use]
+    pub fn resampled(self, nodes: usize) -> Self {
+        if nodes == self.curvature.len() { self } else { self.map(|values| resample(values, nodes)) }
+    }
+
+    /// Whether its nodes are at equal distances.
+    pub(super) fn is_uniform(&self) -> bool {
+        self.metric.iter().all(|g| (g - self.length).abs() <= UNIFORM * self.length)
+    }
+
+    /// Fractions of the arc length at its nodes, from the first on; none if the metric is not positive everywhere.
+    pub(super) fn fractions(&self) -> Option<Vec<f64>> {
+        Some(self.grading()?.fractions())
+    }
+
+    /// The same frame at other `fractions` of the arc length; none if the metric is not positive everywhere.
+    pub(super) fn at_fractions(self, fractions: &[f64]) -> Option<Self> {
+        let parameters = parameters_of_fractions(&self.grading()?, fractions);
+        let mut grid = PeriodicGrid::new(self.curvature.len());
+        let mut points = ScatteredPoints::new(grid.nodes(), &parameters);
+        let mut spectrum = vec![Complex64::default(); grid.modes()];
+        Some(self.map(|values| {
+            grid.transform(values, &mut spectrum);
+            points.values(&spectrum)
+        }))
+    }
+
+    fn grading(&self) -> Option<Grading> {
+        Grading::new(&resample(&self.metric, Grading::samples(self.metric.len()))).ok()
+    }
+
+    /// Every field by `change`.
+    fn map(mut self, mut change: impl FnMut(&[f64]) -> Vec<f64>) -> Self {
+        let [x, y] = [0, 1].map(|axis| change(&self.position.iter().map(|at| at[axis]).collect::<Vec<_>>()));
+        self.position = x.into_iter().zip(y).map(|(x, y)| [x, y]).collect();
+        let nodal = [&mut self.curvature, &mut self.metric, &mut self.normal_velocity];
+        for field in nodal.into_iter().chain(&mut self.density).chain(&mut self.fields) {
+            *field = change(field);
+        }
+        self
+    }
+}
