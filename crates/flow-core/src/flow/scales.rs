@@ -5,7 +5,7 @@ use crate::geometry::vectors::multiply;
 use crate::geometry::{Complex64, PeriodicGrid};
 
 /// Wave number, per fraction of the arc length, below which nothing is told apart.
-const LEAST: f64 = std::f64::consts::TAU;
+const LEAST: f64 = 4.0 * std::f64::consts::TAU;
 /// Part of a field's largest value that counts as variation in any case.
 const FLAT: f64 = 0.05;
 

@@ -6,9 +6,10 @@ use super::grid::{Complex64, PeriodicGrid};
 /// The spacing grows at most at this rate with the distance: a layer of width d at distance x asks for max(d, |x|). A function
 /// with a pole at distance d from the real line is then resolved by a number of nodes that grows as ln(1/d).
 const GROWTH: f64 = 1.0;
-/// Modes, as a part of the nodes, beyond which the logarithm of the spacing is smoothed, and by which the samples are.
-const SMOOTH: f64 = 0.1;
-const CLEAN: f64 = 0.2;
+/// Modes, in roots of the number of nodes, beyond which the logarithm of the spacing is smoothed …
+const SMOOTH: f64 = 1.25;
+/// … and those in which the samples are, in multiples of that.
+const CLEAN: f64 = 2.5;
 /// Points of the map per node.
 const REFINEMENT: usize = 4;
 
@@ -21,9 +22,10 @@ pub fn follow_scales(fractions: &[f64], wave_numbers: &[f64], nodes: usize) -> V
     let count = REFINEMENT * nodes;
     // Smoothed along the parameter of the raw map, but as a function of the place x: the crowds stay where they are.
     let (places, raw) = place_nodes(fractions, &spacing, count);
-    let smooth = low_pass(&raw, SMOOTH * nodes as f64);
+    let modes = SMOOTH * (nodes as f64).sqrt();
+    let smooth = low_pass(&raw, modes);
     let (_, spacing) = place_nodes(&places, &smooth, count);
-    let clean = low_pass(&spacing, CLEAN * nodes as f64);
+    let clean = low_pass(&spacing, CLEAN * modes);
     let every = count / Grading::samples(nodes);
     clean.into_iter().step_by(every).collect()
 }

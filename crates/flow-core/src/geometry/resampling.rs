@@ -107,8 +107,8 @@ impl ScatteredPoints {
 
 /// Passes of Newton's method; the start is within the square of a node distance.
 const MOST_PASSES: usize = 8;
-/// Error of the fraction of the arc length that is rounding.
-const FOUND: f64 = 4e-15;
+/// Error of the fraction of the arc length that the next pass brings to rounding.
+const FOUND: f64 = 1e-8;
 
 /// Parameters of the nodes of `grading` where the `fractions` of the arc length are reached, by Newton's method within the
 /// interval between two nodes.

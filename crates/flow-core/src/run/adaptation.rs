@@ -5,19 +5,22 @@ use std::sync::Arc;
 
 use super::membrane::Membrane;
 use super::mesh::Mesh;
-use super::resolution::{LEAST_NODES, MOST_NODES, needed_nodes, unresolved};
+use super::resolution::{LEAST_NODES, MOST_NODES, needed_nodes, size_above, unresolved};
 use super::scene::{Gauge, Nodes, Scene};
 use super::setup::family;
 use crate::flow::{Regrading, local_wave_numbers};
 use crate::geometry::{Grading, Layout, follow_scales, resample};
 use crate::operators::DerivativeFamily;
 
-/// Accepted steps between two looks at whether fewer nodes would do.
-const INTERVAL: u64 = 16;
-/// Part of the bound that new nodes meet, so that they serve for a while.
-const MARGIN: f64 = 0.3;
+/// Steps on the same nodes before the first look at whether fewer would do; then after twice as many, and so on.
+const FIRST_LOOK: u64 = 8;
+/// Part of the bound that fewer nodes must meet, and that new ones must where those at hand do not serve.
+const MARGIN_OF_FEWER: f64 = 0.3;
+const MARGIN_OF_MORE: f64 = 0.6;
 /// Fewer nodes must save this part of them.
-const WORTHWHILE: f64 = 0.8;
+const WORTHWHILE: f64 = 0.7;
+/// Ratio of the numbers of nodes that are tried.
+const NEXT: f64 = 1.2;
 /// A grading that spreads less than this is not worth its products.
 const LEAST_SPREAD: f64 = 2.0;
 /// A new grading of as many nodes must lower what is not resolved by this factor.
@@ -65,17 +68,18 @@ impl Adaptation {
         let family = self.families[usize::from(membrane.flow().grading().is_some())];
         let part = unresolved(layout, state, layout.nodes(), family);
         let resolved = part <= self.bound;
-        if resolved && !age.is_multiple_of(INTERVAL) {
+        if resolved && !(age >= FIRST_LOOK && age.is_power_of_two()) {
             return None;
         }
-        let aim = MARGIN * self.bound;
+        let aim = self.bound * if resolved { MARGIN_OF_FEWER } else { MARGIN_OF_MORE };
         let same = self.count(layout, state, mesh, aim, family);
         let regraded = if self.grades { self.regrade(membrane, state, mesh, aim) } else { None };
         let nodes = mesh.nodes as f64;
         if let Some((needed, rest, plan)) = regraded {
             let fewer = (needed as f64) < WORTHWHILE * (same.min(mesh.nodes)) as f64;
             let better = rest < BETTER * part && part > BETTER * self.bound;
-            if fewer || (!resolved && needed <= same && better) || (!self.counts && better) {
+            let serves = !resolved && self.counts && needed <= same;
+            if fewer || serves || (!self.counts && better) {
                 return Some(plan);
             }
         }
@@ -112,17 +116,27 @@ impl Adaptation {
             Some((spread.then_some(samples), grading))
         };
         let turning_number = membrane.turning_number();
-        let layout = Layout::new(mesh.nodes, membrane.layout().densities());
-        let (_, grading) = graded(mesh.nodes)?;
-        let graded_trial = grading.is_some();
+        let densities = membrane.layout().densities();
         let flow = membrane.flow();
-        let trial = Regrading::new(flow, layout, grading, turning_number).apply(flow, state).ok()?;
-        let family = self.families[usize::from(graded_trial)];
-        let needed = self.count(layout, &trial, mesh, aim, family);
-        let (samples, grading) = graded(needed)?;
-        let rest = unresolved(layout, &trial, needed, family);
-        let mesh = Mesh { nodes: needed, samples };
-        Some((needed, rest, Plan { mesh, regraded: Some(grading) }))
+        let mut attempt = |nodes: usize| {
+            let (samples, grading) = graded(nodes)?;
+            let family = self.families[usize::from(grading.is_some())];
+            let layout = Layout::new(nodes, densities);
+            let trial = Regrading::new(flow, layout, grading.clone(), turning_number).apply(flow, state).ok()?;
+            let rest = unresolved(layout, &trial, nodes, family);
+            Some((nodes, rest, Plan { mesh: Mesh { nodes, samples }, regraded: Some(grading) }))
+        };
+        let mut best = attempt(mesh.nodes)?;
+        while self.counts && best.1 > aim && best.0 < 2 * mesh.nodes && best.0 < MOST_NODES {
+            best = attempt(size_above(NEXT * best.0 as f64))?;
+        }
+        while self.counts && best.1 <= aim && best.0 > LEAST_NODES {
+            match attempt(size_above(best.0 as f64 / NEXT / NEXT)) {
+                Some(fewer) if fewer.1 <= aim => best = fewer,
+                _ => break,
+            }
+        }
+        Some(best)
     }
 
     /// As many nodes in the same parameter.

@@ -20,6 +20,8 @@ use crate::operators::{CyclicBanded, FactorisationError};
 
 /// More nodes make the assembled sixth-order band inaccurate, and buy nothing.
 const MOST_NODES: usize = 1024;
+/// Graded nodes are crowded somewhere: fewer of them would miss what they crowd for.
+const MOST_GRADED_NODES: usize = 8192;
 
 /// A banded approximate inverse acting on spectra.
 pub trait Banded: Debug + Send {
@@ -78,7 +80,7 @@ struct LocalPart<const F: usize, const B: usize> {
 
 impl<const F: usize, const B: usize> LocalPart<F, B> {
     fn new(nodes: usize, grading: Option<&Grading>) -> Self {
-        let coarse = nodes.clamp(8, MOST_NODES);
+        let coarse = nodes.clamp(8, if grading.is_some() { MOST_GRADED_NODES } else { MOST_NODES });
         let grid = PeriodicGrid::new(coarse);
         let fine_modes = nodes / 2 + 1;
         Self {
