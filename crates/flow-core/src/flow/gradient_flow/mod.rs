@@ -179,6 +179,17 @@ impl GradientFlow {
         &self.force
     }
 
+    /// Σ|∂𝓕/∂yᵢ||yᵢ| over the spectral state `y`, which must be the one evaluated last: the relative rounding of the state
+    /// changes the energy by up to this much.
+    #[must_use]
+    pub fn energy_sensitivity(&self, y: &[f64]) -> f64 {
+        let layout = self.spectral_layout();
+        let modes = layout.modes();
+        let pairs = self.gradient.spectra.iter().zip(layout.spectra(y)).enumerate();
+        let fields = pairs.map(|(i, (p, phi))| self.map.multiplicity(i % modes) * p.norm() * phi.norm());
+        fields.sum::<f64>() + (self.gradient.by_length * y[layout.length_index()]).abs()
+    }
+
     /// Normal velocity V at the state evaluated last.
     #[must_use]
     pub fn normal_velocity(&self) -> &[f64] {

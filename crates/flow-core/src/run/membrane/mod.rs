@@ -267,6 +267,10 @@ impl Problem for Membrane {
         Finish::Good { energy: rate.energy, dissipation: rate.dissipation, integral_rates }
     }
 
+    fn energy_rounding(&self, y: &[f64]) -> f64 {
+        f64::EPSILON * self.flow.energy_sensitivity(y)
+    }
+
     fn accepted(&mut self, time: f64, integrals: [f64; INTEGRALS]) {
         self.placed = [time, self.start_angle + integrals[ANGLE], self.candidate_angle_rate];
     }
