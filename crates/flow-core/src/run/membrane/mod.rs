@@ -216,7 +216,7 @@ impl Problem for Membrane {
     }
 
     fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
-        self.flow.spectral_jacobian_product(v, out);
+        self.flow.implicit_product(v, out);
     }
 
     fn factorise(&mut self, gamma: f64) -> bool {
