@@ -154,6 +154,17 @@ impl Stepper for OneStep {
         &mut self.candidate
     }
 
+    fn gain(&self, integral_rates: [f64; INTEGRALS]) -> [f64; INTEGRALS] {
+        self.integrals.gain(self.time + self.step, integral_rates)
+    }
+
+    fn hold(&mut self, size: f64) {
+        self.step = size;
+        self.candidate.copy_from_slice(&self.state);
+        self.error_norm = 0.0;
+        self.failed = false;
+    }
+
     fn refuse(&mut self) {
         self.failed = true;
         self.step *= 0.5;

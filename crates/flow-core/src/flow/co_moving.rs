@@ -3,32 +3,35 @@
 use super::curve_fields::CurveFields;
 use super::flow_map::FlowMap;
 use crate::geometry::Complex64;
-use crate::geometry::vectors::{multiply, multiply_into, scale};
+use crate::geometry::vectors::{add_scaled, multiply, multiply_into, scale};
 
 impl FlowMap {
-    /// f = −(1/g)D₊ᵀ(1/Mg)D₊p − κ∂𝓕/∂g, p the derivative by K.
-    pub(super) fn co_moving_force(
+    /// Adds −(1/g)D₊ᵀ(1/Mg)D₊p, p the derivative by K.
+    pub(super) fn add_co_moving_force(
         &mut self,
         at: &CurveFields,
         gradient: &[Complex64],
-        by_length: f64,
         force: &mut [f64],
     ) {
-        let (Some(metric), Some(laplacian), Some(field)) =
-            (at.moving_metric(), &mut self.graded, self.layout.metric())
-        else {
+        let (Some(metric), Some(laplacian)) = (at.moving_metric(), &mut self.graded) else {
             return;
         };
         let modes = self.grid.modes();
         laplacian.follow(metric);
         laplacian.apply(&gradient[..modes], &mut self.spectrum);
-        self.grid.synthesise(&self.spectrum, force);
-        multiply(force, metric.inverse());
-        scale(force, -1.0 / at.length().powi(2));
-        self.spectrum.copy_from_slice(&gradient[field * modes..(field + 1) * modes]);
         self.grid.synthesise(&self.spectrum, &mut self.values);
-        for ((force, by_metric), kappa) in force.iter_mut().zip(&self.values).zip(at.at_nodes(0)) {
-            *force -= kappa * (by_metric + by_length);
+        multiply(&mut self.values, metric.inverse());
+        add_scaled(force, -1.0 / at.length().powi(2), &self.values);
+    }
+
+    /// −∂𝓕/∂g.
+    pub(super) fn co_moving_stretching(&mut self, gradient: &[Complex64], by_length: f64, out: &mut [f64]) {
+        let Some(field) = self.layout.metric() else { return };
+        let modes = self.grid.modes();
+        self.spectrum.copy_from_slice(&gradient[field * modes..(field + 1) * modes]);
+        self.grid.synthesise(&self.spectrum, out);
+        for value in out {
+            *value = -*value - by_length;
         }
     }
 

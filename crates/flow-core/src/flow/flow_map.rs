@@ -72,8 +72,30 @@ impl FlowMap {
     /// `by_length` = ∂𝓕/∂|Γ| at fixed K and m. f is a density in L²(dσ). Where the metric is a field, the
     /// derivative by it is the last spectrum, and that by its mean `by_length`.
     pub fn force(&mut self, at: &CurveFields, gradient: &[Complex64], by_length: f64, force: &mut [f64]) {
+        self.stretching(at, gradient, by_length, force);
+        multiply(force, at.at_nodes(0));
         if at.moving_metric().is_some() {
-            return self.co_moving_force(at, gradient, by_length, force);
+            return self.add_co_moving_force(at, gradient, force);
+        }
+        let modes = self.grid.modes();
+        let scale = -1.0 / at.length().powi(2);
+        if let Some(graded) = &mut self.graded {
+            graded.apply(&gradient[..modes], &mut self.spectrum);
+            self.grid.synthesise(&self.spectrum, &mut self.values);
+            multiply(&mut self.values, graded.grading().inverse());
+            add_scaled(force, scale, &self.values);
+            return;
+        }
+        apply_real_symbol(&mut self.spectrum, scale, gradient, self.derivative.minus_laplacian());
+        self.grid.synthesise(&self.spectrum, &mut self.values);
+        add_scaled(force, 1.0, &self.values);
+    }
+
+    /// Z − ⟨wZ⟩ − π of (F3), the part of the force by curvature, for a gradient as [`FlowMap::force`] takes it: what the
+    /// energy loses where a piece of the curve is stretched, minus its tension.
+    pub fn stretching(&mut self, at: &CurveFields, gradient: &[Complex64], by_length: f64, out: &mut [f64]) {
+        if at.moving_metric().is_some() {
+            return self.co_moving_stretching(gradient, by_length, out);
         }
         let modes = self.grid.modes();
         // z = Σ φ ∂_s p over the fields, at the flux points.
@@ -101,20 +123,9 @@ impl FlowMap {
             None => by_length,
             Some(graded) => by_length + mean_of_product(graded.grading().weight(), &self.values),
         };
-        for ((force, z), kappa) in force.iter_mut().zip(&self.values).zip(at.at_nodes(0)) {
-            *force = kappa * (z - by_length);
+        for (out, z) in out.iter_mut().zip(&self.values) {
+            *out = z - by_length;
         }
-        let scale = -1.0 / at.length().powi(2);
-        if let Some(graded) = &mut self.graded {
-            graded.apply(&gradient[..modes], &mut self.spectrum);
-            self.grid.synthesise(&self.spectrum, &mut self.values);
-            multiply(&mut self.values, graded.grading().inverse());
-            add_scaled(force, scale, &self.values);
-            return;
-        }
-        apply_real_symbol(&mut self.spectrum, scale, gradient, self.derivative.minus_laplacian());
-        self.grid.synthesise(&self.spectrum, &mut self.values);
-        add_scaled(force, 1.0, &self.values);
     }
 
     /// Rates of the fields per unit parameter as spectra, one per field, under the normal velocity `v`.

@@ -1,6 +1,6 @@
 //! The step loop with its guards: finite values, falling energy, step sizes above rounding.
 
-use super::{Counters, Finish, INTEGRALS, Problem, Rejection, Rejections, Stepper};
+use super::{Counters, Finish, INTEGRALS, Problem, Rejection, Rejections, Rest, Stepper};
 
 /// Settings of the loop.
 #[derive(Clone, Copy, Debug)]
@@ -70,6 +70,7 @@ pub struct Adaptive<S> {
     stepper: S,
     options: AdaptiveOptions,
     energy: f64,
+    rest: Rest,
     counters: Counters,
 }
 
@@ -79,7 +80,11 @@ const ENERGY_ROUNDING: f64 = 1e-13;
 const ROUGH: f64 = 2.0;
 /// Part of the energy tolerance below which such an error does not matter.
 const UNSEEN: f64 = 0.1;
-const MOST_POLISHES: usize = 3;
+/// Multiple of the energy tolerance by which the balance of one step may be off; such steps are few.
+const IMBALANCE: f64 = 100.0;
+/// Part of that from which on the next step is no larger.
+const WORTH_NO_GROWTH: f64 = 0.4;
+const MOST_POLISHES: usize = 6;
 /// The step size must stay above this many units in the last place of the time.
 const LEAST_STEP_ULPS: f64 = 16.0;
 
@@ -87,7 +92,20 @@ impl<S: Stepper> Adaptive<S> {
     /// A loop from the state of `stepper`, whose energy is `energy`.
     #[must_use]
     pub fn new(stepper: S, options: AdaptiveOptions, energy: f64, counters: Counters) -> Self {
-        Self { stepper, options, energy, counters }
+        let rest = Rest::new(stepper.time(), energy);
+        Self { stepper, options, energy, rest, counters }
+    }
+
+    /// Goes on with a watch that was kept before.
+    #[must_use]
+    pub fn watched(self, rest: Rest) -> Self {
+        Self { rest, ..self }
+    }
+
+    /// The watch over the energy.
+    #[must_use]
+    pub fn rest(&self) -> Rest {
+        self.rest
     }
 
     /// The stepper.
@@ -138,9 +156,16 @@ impl<S: Stepper> Adaptive<S> {
         loop {
             self.stepper.limit_step_size(self.remaining(start));
             let size = self.stepper.step_size();
-            match self.attempt(problem) {
+            let mut outcome = self.attempt(problem);
+            if let Err(cause) = outcome
+                && self.rest.reached(start)
+            {
+                rejections.count(cause);
+                self.counters.rejections.count(cause);
+                outcome = Ok(self.hold(problem, size));
+            }
+            match outcome {
                 Ok((energy, dissipation)) => {
-                    self.energy = energy;
                     self.counters.steps += 1;
                     return Ok(StepReport {
                         time: self.stepper.time(),
@@ -177,7 +202,7 @@ impl<S: Stepper> Adaptive<S> {
         let time = self.stepper.time() + size;
         let mut finish = self.finish(problem, time);
         for _ in 0..MOST_POLISHES {
-            if !self.is_rough(&finish, size) || !self.stepper.polish(problem, &mut self.counters) {
+            if !self.is_rough(problem, &finish, size) || !self.stepper.polish(problem, &mut self.counters) {
                 break;
             }
             finish = self.finish(problem, time);
@@ -187,16 +212,52 @@ impl<S: Stepper> Adaptive<S> {
                 self.stepper.refuse();
                 Err(Rejection::NotFinite)
             }
-            Finish::Good { energy, .. } if energy > self.energy + ENERGY_ROUNDING * self.energy.abs() => {
+            Finish::Good { energy, .. } if energy > self.energy + self.rounding(problem, energy) => {
                 self.stepper.refuse();
                 Err(Rejection::EnergyRise)
             }
             Finish::Good { energy, dissipation, integral_rates } => {
+                let imbalance = self.imbalance(energy, integral_rates);
+                if imbalance > 1.0 {
+                    self.stepper.refuse();
+                    return Err(Rejection::Error);
+                }
+                let rounding = self.rounding(problem, energy);
+                self.rest.watch(time, energy, rounding);
+                self.energy = energy;
                 self.stepper.accept(integral_rates);
                 problem.accepted(time, self.stepper.integrals());
+                if imbalance > WORTH_NO_GROWTH {
+                    self.stepper.limit_step_size(size);
+                }
                 Ok((energy, dissipation))
             }
         }
+    }
+
+    /// A step of size `size` in which the state stays: the flow is at rest, and what moves it is rounding.
+    fn hold(&mut self, problem: &mut dyn Problem, size: f64) -> (f64, f64) {
+        self.stepper.hold(size);
+        let time = self.stepper.time() + size;
+        self.finish(problem, time);
+        self.stepper.accept([0.0; INTEGRALS]);
+        problem.accepted(time, self.stepper.integrals());
+        (self.energy, 0.0)
+    }
+
+    /// By how much rounding may change the energy from the last one to `energy`, that of the candidate.
+    fn rounding(&mut self, problem: &mut dyn Problem, energy: f64) -> f64 {
+        let sensitivity = problem.energy_rounding(self.stepper.candidate());
+        ENERGY_ROUNDING * self.energy.abs().max(energy.abs()) + sensitivity
+    }
+
+    /// How far the energy lost in the step to the candidate and the integral of the dissipation are apart: far, if the
+    /// step is too large for a transient that the norm of the state does not see.
+    /// In units of what is allowed.
+    fn imbalance(&self, energy: f64, integral_rates: [f64; INTEGRALS]) -> f64 {
+        let [dissipated, ..] = self.stepper.gain(integral_rates);
+        let scale = self.energy.abs().max(energy.abs()).max(f64::MIN_POSITIVE);
+        (energy - self.energy + dissipated).abs() / (IMBALANCE * self.options.energy_tolerance * scale)
     }
 
     fn finish(&mut self, problem: &mut dyn Problem, time: f64) -> Finish {
@@ -206,10 +267,10 @@ impl<S: Stepper> Adaptive<S> {
 
     /// Whether the dissipation does not fit the energy lost in the step: the implicit solve has left errors in
     /// stiff modes that the norm of the state does not see.
-    fn is_rough(&self, finish: &Finish, size: f64) -> bool {
+    fn is_rough(&mut self, problem: &mut dyn Problem, finish: &Finish, size: f64) -> bool {
         let Finish::Good { energy, dissipation, .. } = finish else { return false };
         let lost = (self.energy - energy).abs();
-        let rises = *energy > self.energy + ENERGY_ROUNDING * self.energy.abs();
+        let rises = *energy > self.energy + self.rounding(problem, *energy);
         rises || dissipation * size > ROUGH * lost + UNSEEN * self.options.energy_tolerance * energy.abs()
     }
 }

@@ -10,6 +10,8 @@ use super::history::lagrange;
 const POINTS: usize = 5;
 /// The integral whose rate is never negative.
 const POSITIVE: usize = 0;
+/// Logarithm by which an interpolated positive rate may leave the range of the two rates beside it.
+const LEAST_SWING: f64 = 0.1;
 /// Nodes and weights of the three-point Gauss rule on [0, 1], exact for the polynomials used.
 const GAUSS: [(f64, f64); 3] =
     [(0.112_701_665_379_258_31, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
@@ -61,6 +63,14 @@ impl Integrals {
         self.values[0] = self.at(time);
     }
 
+    /// What a step to `time` adds, with the rates `rates` there.
+    #[must_use]
+    pub fn gain(&self, time: f64, rates: [f64; INTEGRALS]) -> [f64; INTEGRALS] {
+        let mut after = self.clone();
+        after.push(time, rates);
+        std::array::from_fn(|i| after.values[0][i] - self.values[0][i])
+    }
+
     /// Values at a time within the last step.
     #[must_use]
     pub fn at(&self, time: f64) -> [f64; INTEGRALS] {
@@ -71,17 +81,57 @@ impl Integrals {
         let mut values = self.values[1];
         let rates = &self.rates[..self.filled];
         // A rate that falls by decades within a few steps is a polynomial in its logarithm only.
-        let logarithmic: [bool; INTEGRALS] =
-            std::array::from_fn(|i| i == POSITIVE && rates.iter().all(|r| r[i] > 0.0));
+        let logarithmic = rates.iter().all(|r| r[POSITIVE] > 0.0);
         for (node, weight) in GAUSS {
             let weights = lagrange(start + node * (time - start), &self.times[..self.filled]).value;
             for (i, value) in values.iter_mut().enumerate() {
                 let sum =
                     |of: fn(f64) -> f64| rates.iter().zip(weights).map(|(r, w)| w * of(r[i])).sum::<f64>();
-                let rate = if logarithmic[i] { sum(f64::ln).exp() } else { sum(|rate| rate) };
+                let ends = [rates[0][i], rates[1][i]];
+                let rate = match i {
+                    POSITIVE if logarithmic => near(sum(f64::ln), ends.map(f64::ln), LEAST_SWING).exp(),
+                    POSITIVE => near(sum(|rate| rate), ends, 0.0).max(0.0),
+                    _ => sum(|rate| rate),
+                };
                 *value += (time - start) * weight * rate;
             }
         }
         values
+    }
+}
+
+/// `value`, but no farther outside the range of `ends` than the range is wide and `least` more: a polynomial through
+/// values that jump between steps of unequal size swings beyond them, and in a logarithm that means powers of ten.
+fn near(value: f64, ends: [f64; 2], least: f64) -> f64 {
+    let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+    let margin = high - low + least;
+    value.clamp(low - margin, high + margin)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn integral(times: &[f64], rate: impl Fn(f64) -> f64) -> f64 {
+        let rates = |time| [rate(time), 0.0, 0.0, 0.0];
+        let mut integrals = Integrals::new(times[0], [0.0; INTEGRALS], rates(times[0]));
+        times[1..].iter().for_each(|time| integrals.push(*time, rates(*time)));
+        integrals.values()[POSITIVE]
+    }
+
+    #[test]
+    fn a_rate_that_decays_is_integrated_exactly() {
+        let times: Vec<f64> = (0..40).map(|i| 0.25 * f64::from(i)).collect();
+        let exact = 1.0 - (-9.75_f64).exp();
+        assert!((integral(&times, |time| (-time).exp()) - exact).abs() < 1e-10);
+    }
+
+    #[test]
+    fn a_rate_that_jumps_gives_no_more_than_its_values_allow() {
+        let times: Vec<f64> = (0..40).map(|i| 1e-9 * 2.5_f64.powi(i)).collect();
+        let noisy = |time: f64| if (1e9 * time).log(2.5).round() as i64 % 3 == 0 { 1e-3 } else { 1e-15 };
+        let bound: f64 = times.windows(2).map(|pair| 1e3 * (pair[1] - pair[0])).sum();
+        assert!(integral(&times, noisy).is_finite());
+        assert!(integral(&times, noisy) <= bound, "{:e}", integral(&times, noisy));
     }
 }

@@ -8,6 +8,7 @@ mod history;
 mod integrals;
 mod memory;
 mod newton;
+mod rest;
 mod statistics;
 
 pub use adaptive::{Adaptive, AdaptiveOptions, IntegrationError, StepReport};
@@ -18,6 +19,7 @@ pub use history::History;
 pub use integrals::Integrals;
 pub use memory::Memory;
 pub use newton::{Factorisation, NewtonKrylov, NewtonOutcome, Stage};
+pub use rest::Rest;
 pub use statistics::{Counters, Rejections};
 
 /// A system dy/dt = f(y) with an implicit operator I − γJ, J ≈ f′.
@@ -47,6 +49,10 @@ pub trait Problem {
     fn krylov_feedback(&mut self, iterations: usize) -> bool;
     /// Puts the candidate `y` back onto the constraints; evaluates what a finished step must know.
     fn finish(&mut self, time: f64, y: &mut [f64]) -> Finish;
+    /// Energy that the rounding of the state finished last may add or take away, where the energy itself is near zero.
+    fn energy_rounding(&self, _y: &[f64]) -> f64 {
+        0.0
+    }
     /// Tells that the state finished last was accepted, with the integrals at it.
     fn accepted(&mut self, time: f64, integrals: [f64; INTEGRALS]);
 }
@@ -73,7 +79,7 @@ pub enum Finish {
 /// Why an attempt at a step failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rejection {
-    /// The local error was above the tolerance.
+    /// The local error was above the tolerance, or the dissipation did not account for the energy lost.
     Error,
     /// The implicit solve did not converge.
     Solver,
@@ -108,6 +114,10 @@ pub trait Stepper {
     }
     /// The candidate of the last attempt.
     fn candidate(&mut self) -> &mut [f64];
+    /// What the integrals gain in the step to the candidate, with their rates at it.
+    fn gain(&self, integral_rates: [f64; INTEGRALS]) -> [f64; INTEGRALS];
+    /// Makes the last accepted state the candidate of a step of size `size`.
+    fn hold(&mut self, size: f64);
     /// Throws the candidate away for a cause found outside and reduces the step size.
     fn refuse(&mut self);
     /// Accepts the candidate with the integral rates at it.

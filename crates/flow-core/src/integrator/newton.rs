@@ -171,7 +171,8 @@ impl NewtonKrylov {
         y: &mut [f64],
         counters: &mut Counters,
     ) -> Option<f64> {
-        problem.rate(y, &mut self.rate);
+        // At the state itself: the linearisation of a guess far away converges slowly, or not at all, in stiff modes.
+        problem.linearise(y, &mut self.rate);
         counters.right_hand_sides += 1;
         self.correct_by_rate(problem, norm, stage, false, y, counters)
     }

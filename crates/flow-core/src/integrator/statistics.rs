@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// Attempts at a step that were thrown away, by cause.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Rejections {
-    /// The local error was above the tolerance.
+    /// The local error was above the tolerance, or the dissipation did not account for the energy lost.
     pub error: u64,
     /// The implicit solve did not converge.
     pub solver: u64,

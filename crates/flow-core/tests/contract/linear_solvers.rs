@@ -190,7 +190,7 @@ fn preconditioned_gmres_converges_in_few_iterations() {
     for (terms, solver, most) in [
         (bending, LinearSolver::Fourier, [(1e-5, 6), (1e-3, 8), (1e-1, 16)]),
         (bending, LinearSolver::Banded, [(1e-5, 6), (1e-3, 11), (1e-1, 23)]),
-        (agents, LinearSolver::Fourier, [(1e-5, 12), (1e-3, 25), (1e-1, 48)]),
+        (agents, LinearSolver::Fourier, [(1e-5, 12), (1e-3, 34), (1e-1, 48)]),
         (agents, LinearSolver::Banded, [(1e-5, 10), (1e-3, 19), (1e-1, 35)]),
     ] {
         for family in DerivativeFamily::ALL {
@@ -214,9 +214,9 @@ fn preconditioners_hold_every_mobility() {
     let gamma = 1e-3;
     for family in DerivativeFamily::ALL {
         for (terms, solver, most) in [
-            (bending, LinearSolver::Fourier, 16),
+            (bending, LinearSolver::Fourier, 22),
             (bending, LinearSolver::Banded, 16),
-            (agents, LinearSolver::Fourier, 44),
+            (agents, LinearSolver::Fourier, 55),
             (agents, LinearSolver::Banded, 36),
         ] {
             for normal in Normal::ALL {

@@ -1,8 +1,11 @@
 //! The right-hand side −`𝓚(X)∇𝓕_h` and the implicit operator −𝓚 Hess `𝓕_h`. See `THEORY.md`, eqs. (F6) and (F7).
 
+mod implicit;
 mod turning;
 
 use std::sync::Arc;
+
+use implicit::drive;
 
 use super::curve_fields::CurveFields;
 use super::density_mobility::DensityMobility;
@@ -33,6 +36,8 @@ pub struct GradientFlow {
     frozen: CurveFields,
     frozen_mobility: Box<dyn NormalMobility>,
     frozen_fault: Option<MobilityError>,
+    /// Minus the tension at the linearisation.
+    frozen_stretching: Vec<f64>,
     gradient: IntrinsicGradient,
     force: Vec<f64>,
     velocity: Vec<f64>,
@@ -62,6 +67,7 @@ impl GradientFlow {
             frozen: current.clone(),
             frozen_mobility: normal_mobility.boxed_clone(),
             frozen_fault: None,
+            frozen_stretching: vec![0.0; layout.nodes()],
             current,
             current_mobility: normal_mobility,
             gradient: IntrinsicGradient { spectra, by_length: 0.0 },
@@ -179,6 +185,17 @@ impl GradientFlow {
         &self.force
     }
 
+    /// Σ|∂𝓕/∂yᵢ||yᵢ| over the spectral state `y`, which must be the one evaluated last: the relative rounding of the state
+    /// changes the energy by up to this much.
+    #[must_use]
+    pub fn energy_sensitivity(&self, y: &[f64]) -> f64 {
+        let layout = self.spectral_layout();
+        let modes = layout.modes();
+        let pairs = self.gradient.spectra.iter().zip(layout.spectra(y)).enumerate();
+        let fields = pairs.map(|(i, (p, phi))| self.map.multiplicity(i % modes) * p.norm() * phi.norm());
+        fields.sum::<f64>() + (self.gradient.by_length * y[layout.length_index()]).abs()
+    }
+
     /// Normal velocity V at the state evaluated last.
     #[must_use]
     pub fn normal_velocity(&self) -> &[f64] {
@@ -196,19 +213,14 @@ impl GradientFlow {
         self.frozen.set(state, grid, derivative);
         self.energy.linearise(&self.frozen, &mut self.gradient);
         self.frozen_fault = self.frozen_mobility.set(&self.frozen).err();
+        let IntrinsicGradient { spectra, by_length } = &self.gradient;
+        self.map.stretching(&self.frozen, spectra, *by_length, &mut self.frozen_stretching);
     }
 
     /// Spectral rate at the state of the linearisation; call right after [`GradientFlow::spectral_linearise`].
     pub fn frozen_rate(&mut self, rate: &mut [f64]) {
         self.descend(true);
         self.write_rates(true, rate);
-    }
-
-    /// Product of the frozen −𝓚 Hess `𝓕_h` with `v`, both spectral.
-    pub fn spectral_jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
-        self.spectral_hessian_product(v);
-        self.descend(true);
-        self.write_rates(true, out);
     }
 
     /// Product of the frozen Hess `𝓕_h` with the spectral `v`, at [`GradientFlow::gradient`].
@@ -237,11 +249,7 @@ impl GradientFlow {
             (&self.current, &mut self.current_mobility, fault)
         };
         self.map.force(at, &self.gradient.spectra, self.gradient.by_length, &mut self.force);
-        if fault.is_some() {
-            self.velocity.fill(f64::NAN);
-        } else {
-            mobility.apply(at, &self.force, &mut self.velocity);
-        }
+        drive(mobility.as_mut(), fault, at, &self.force, &mut self.velocity);
     }
 
     fn dissipation(&mut self) -> f64 {

@@ -29,7 +29,7 @@ impl Dense {
         let (mut unit, mut product) = (vec![0.0; self.size], vec![0.0; self.size]);
         for column in 0..self.size {
             unit[column] = 1.0;
-            flow.spectral_jacobian_product(&unit, &mut product);
+            flow.implicit_product(&unit, &mut product);
             unit[column] = 0.0;
             for row in 0..self.size {
                 matrix[(row, column)] -= gamma * product[row];

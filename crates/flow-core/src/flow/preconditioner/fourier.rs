@@ -57,6 +57,8 @@ impl FourierSymbol {
                 means[a * fields + b] = if a == b { mean(a, a).max(0.0) } else { mean(a, b) };
             }
         }
+        // Compression makes modes grow; a preconditioner may leave that out.
+        let tension = flow.mean_tension().max(0.0);
         for (mode, symbol) in self.laplacian.iter().enumerate().skip(first) {
             for a in 0..fields {
                 let mobility = gamma * mobility_symbol(flow, a, *symbol, length);
@@ -66,6 +68,8 @@ impl FourierSymbol {
                 let stiffness = flow.energy_terms().stiffness()[a] * symbol / (length * length);
                 block[a * fields + a] += 1.0 + mobility * stiffness;
             }
+            let square = symbol / (length * length);
+            block[0] += gamma * tension * square * flow.normal_mobility().symbol(square);
             let target = &mut self.inverse[mode * fields * fields..(mode + 1) * fields * fields];
             if !invert(block, fields, target) {
                 for a in 0..fields {

@@ -229,6 +229,16 @@ impl Stepper for Bdf {
         self.newton.correct(problem, &self.norm, &stage, &mut self.candidate, counters).is_some()
     }
 
+    fn gain(&self, integral_rates: [f64; INTEGRALS]) -> [f64; INTEGRALS] {
+        self.integrals.gain(self.candidate_time(), integral_rates)
+    }
+
+    fn hold(&mut self, size: f64) {
+        self.step = size;
+        self.candidate.copy_from_slice(self.history.state(0));
+        (self.order, self.steps_at_order, self.failures) = (1, 0, 0);
+    }
+
     fn candidate(&mut self) -> &mut [f64] {
         &mut self.candidate
     }

@@ -220,7 +220,7 @@ impl Problem for Membrane {
     }
 
     fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
-        self.flow.spectral_jacobian_product(v, out);
+        self.flow.implicit_product(v, out);
     }
 
     fn factorise(&mut self, gamma: f64) -> bool {
@@ -269,6 +269,10 @@ impl Problem for Membrane {
         let integral_rates = self.integral_rates(rate);
         self.candidate_angle_rate = integral_rates[ANGLE];
         Finish::Good { energy: rate.energy, dissipation: rate.dissipation, integral_rates }
+    }
+
+    fn energy_rounding(&self, y: &[f64]) -> f64 {
+        f64::EPSILON * self.flow.energy_sensitivity(y)
     }
 
     fn accepted(&mut self, time: f64, integrals: [f64; INTEGRALS]) {

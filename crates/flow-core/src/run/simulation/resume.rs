@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Simulation;
-use crate::integrator::{self, Adaptive, AdaptiveOptions, Bdf, Counters, Problem, Stepper};
+use crate::integrator::{self, Adaptive, AdaptiveOptions, Bdf, Counters, Problem, Rest, Stepper};
 use crate::run::equilibrium::Equilibrium;
 use crate::run::frames::Start;
 use crate::run::membrane::MembraneMemory;
@@ -17,6 +17,7 @@ use crate::run::setup_error::SetupError;
 pub struct Memory {
     integration: integrator::Memory,
     energy: f64,
+    rest: Rest,
     counters: Counters,
     membrane: MembraneMemory,
     start: Start,
@@ -75,6 +76,7 @@ impl Simulation {
         Memory {
             integration: self.integration.stepper().memory(),
             energy: self.integration.energy(),
+            rest: self.integration.rest(),
             counters: self.counters_with_time(),
             membrane: self.membrane.memory(),
             start: self.start,
@@ -148,7 +150,8 @@ impl Simulation {
             return Err(foreign("the time"));
         }
         let options = AdaptiveOptions { end: simulation.next_stop(), ..*simulation.integration.options() };
-        simulation.integration = Adaptive::new(stepper, options, memory.energy, memory.counters);
+        let integration = Adaptive::new(stepper, options, memory.energy, memory.counters);
+        simulation.integration = integration.watched(memory.rest);
         simulation.record.counters = memory.counters;
         simulation.record.frames = frames;
         simulation.record.steps = steps;

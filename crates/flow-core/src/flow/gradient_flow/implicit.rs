@@ -1,0 +1,71 @@
+//! The implicit operator −𝓚 Hess `𝓕_h`, and the tension in it. See `THEORY.md`, eqs. (F7) and (F20).
+
+use super::GradientFlow;
+use crate::flow::curve_fields::CurveFields;
+use crate::flow::normal_mobility::{MobilityError, NormalMobility};
+use crate::geometry::SpectralLayout;
+use crate::geometry::vectors::mean;
+
+impl GradientFlow {
+    /// Product of the frozen −𝓚 Hess `𝓕_h` with `v`, both spectral.
+    pub fn spectral_jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
+        self.spectral_hessian_product(v);
+        self.descend(true);
+        self.write_rates(true, out);
+    }
+
+    /// Product of the implicit operator with the spectral `v`: −𝓚 Hess `𝓕_h` at the linearisation, and what the tension there
+    /// does to a change of the curvature.
+    pub fn implicit_product(&mut self, v: &[f64], out: &mut [f64]) {
+        self.spectral_hessian_product(v);
+        self.map.force(&self.frozen, &self.gradient.spectra, self.gradient.by_length, &mut self.force);
+        self.add_tension(v);
+        let mobility = self.frozen_mobility.as_mut();
+        drive(mobility, self.frozen_fault, &self.frozen, &self.force, &mut self.velocity);
+        self.write_rates(true, out);
+    }
+
+    /// Adds (Z − π)δκ to the force, with κ = K/(|Γ|w), or K/g where the metric is a field.
+    fn add_tension(&mut self, v: &[f64]) {
+        let layout = SpectralLayout::new(self.layout);
+        let (modes, length) = (layout.modes(), self.frozen.length());
+        let change = &mut self.velocity;
+        let (grid, _) = self.map.grid_and_derivative();
+        grid.synthesise(&layout.spectra(v)[..modes], change);
+        let weight = self.frozen.weight();
+        let by_weight = |i: usize| weight.map_or(1.0 / length, |weight| 1.0 / (length * weight[i]));
+        for (i, force) in self.force.iter_mut().enumerate() {
+            *force += self.frozen_stretching[i] * change[i] * by_weight(i);
+        }
+        match self.layout.metric() {
+            None => change.fill(v[layout.length_index()]),
+            Some(field) => grid.synthesise(&layout.spectra(v)[field * modes..(field + 1) * modes], change),
+        }
+        let stretched = |i: usize| if self.layout.metric().is_some() { by_weight(i) } else { 1.0 / length };
+        let kappa = self.frozen.at_nodes(0);
+        for (i, force) in self.force.iter_mut().enumerate() {
+            *force -= self.frozen_stretching[i] * kappa[i] * change[i] * stretched(i);
+        }
+    }
+
+    /// Mean tension of the curve at the linearisation; negative where it is compressed.
+    #[must_use]
+    pub fn mean_tension(&self) -> f64 {
+        -mean(&self.frozen_stretching)
+    }
+}
+
+/// V = 𝓑f, NaN where the mobility is not defined.
+pub(super) fn drive(
+    mobility: &mut dyn NormalMobility,
+    fault: Option<MobilityError>,
+    at: &CurveFields,
+    force: &[f64],
+    velocity: &mut [f64],
+) {
+    if fault.is_some() {
+        velocity.fill(f64::NAN);
+    } else {
+        mobility.apply(at, force, velocity);
+    }
+}
