@@ -195,6 +195,7 @@ impl Record {
         stats.set_item("factorisations", counters.factorisations)?;
         stats.set_item("solves", counters.solves)?;
         stats.set_item("remaps", counters.remaps)?;
+        stats.set_item("unresolved_steps", counters.unresolved_steps)?;
         stats.set_item("integration_seconds", counters.integration_seconds)?;
         Ok(stats)
     }

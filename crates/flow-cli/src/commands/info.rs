@@ -79,6 +79,9 @@ fn summary(record: &Record) -> Vec<(String, Value)> {
         row("remaps", json!(counters.remaps));
         row("remap_error", number(record.frames.last().map_or(0.0, |last| last.remap_error)));
     }
+    if counters.unresolved_steps > 0 {
+        row("unresolved_steps", json!(counters.unresolved_steps));
+    }
     let Rejections { error, solver, energy_rise, not_finite } = counters.rejections;
     row("rejections_error", json!(error));
     row("rejections_solver", json!(solver));

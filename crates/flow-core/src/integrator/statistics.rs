@@ -54,6 +54,8 @@ pub struct Counters {
     pub solves: u64,
     /// Changes of the nodes or of the gauge.
     pub remaps: u64,
+    /// Steps whose state the nodes chosen by the program do not resolve to the tolerance, and no others could be had.
+    pub unresolved_steps: u64,
     /// Seconds spent in the time integration, without start-up and output.
     pub integration_seconds: f64,
 }

@@ -1,5 +1,6 @@
 //! What a frame holds on request, and how near a stiff membrane is to an incompressible one.
 
+use super::adaptation::Adaptation;
 use super::energy_density::EnergyDensity;
 use super::energy_terms::{Initial, energy_terms};
 use super::scene::{DensityMobility, NormalMobility, OutputField, Scene};
@@ -7,7 +8,7 @@ use super::setup_error::SetupError;
 use super::term_parts::TermParts;
 use crate::flow::{Carried, EnergySum, ExcessDensity, FlowMap, GradientFlow, Incompressible};
 use crate::geometry::vectors::mean;
-use crate::geometry::{Layout, PeriodicGrid};
+use crate::geometry::{Complex64, Layout, PeriodicGrid};
 use crate::operators::{Derivative, Helmholtz};
 
 /// Names of the values per frame of a scene with a membrane term.
@@ -22,6 +23,27 @@ pub struct Diagnostics {
     /// The flow of the energy without the membrane term, made incompressible.
     incompressible: Option<GradientFlow>,
     membrane: Option<MembraneTerm>,
+    /// Takes fields at flux points to the nodes: frames on other nodes have other flux points.
+    to_nodes: Option<FluxPoints>,
+}
+
+/// The way from the flux points halfway between the nodes back to them.
+#[derive(Debug)]
+struct FluxPoints {
+    grid: PeriodicGrid,
+    spectrum: Vec<Complex64>,
+}
+
+impl FluxPoints {
+    fn at_nodes(&mut self, field: &[f64]) -> Vec<f64> {
+        let mut out = vec![0.0; field.len()];
+        self.grid.transform(field, &mut self.spectrum);
+        for (mode, value) in self.spectrum.iter_mut().enumerate() {
+            *value *= Complex64::cis(-0.5 * self.grid.wave_number(mode) / self.grid.nodes() as f64);
+        }
+        self.grid.synthesise(&self.spectrum, &mut out);
+        out
+    }
 }
 
 /// The membrane term of a scene.
@@ -65,7 +87,13 @@ impl Diagnostics {
             .then(|| incompressible(scene, initial, layout, derivative));
         let density =
             fields.contains(&OutputField::EnergyDensity).then(|| energy_terms(scene, initial, nodes));
+        let staggered = derivative.interpolation().is_some() && Adaptation::of(scene).is_some();
+        let to_nodes = staggered.then(|| {
+            let grid = PeriodicGrid::new(nodes);
+            FluxPoints { spectrum: vec![Complex64::default(); grid.modes()], grid }
+        });
         Ok(Self {
+            to_nodes,
             parts: TermParts::new(scene, initial, layout, derivative)?,
             energy_density: density.transpose()?.map(|terms| EnergyDensity::new(terms, layout)),
             incompressible: base.transpose()?,
@@ -117,10 +145,10 @@ impl Diagnostics {
                 OutputField::TangentialVelocity => {
                     let mut w = vec![0.0; nodes];
                     flow.tangential_velocity(&mut w);
-                    w
+                    on_nodes(&mut self.to_nodes, w)
                 }
                 OutputField::ExcessDensity => excess.density.clone(),
-                OutputField::MembraneFlux => excess.flux.clone(),
+                OutputField::MembraneFlux => on_nodes(&mut self.to_nodes, excess.flux.clone()),
                 OutputField::EnergyDensity => {
                     self.energy_density.as_mut().map_or_else(undefined, |density| density.at(flow.current()))
                 }
@@ -138,6 +166,14 @@ impl Diagnostics {
         let residual = flow.normal_velocity().iter().zip(limit).map(|(v, limit)| v - limit);
         let norm = |squares: Vec<f64>| (at.length() * mean(&squares)).sqrt();
         vec![norm(off.map(|w| w * w).collect()), norm(residual.map(|v| v * v).collect())]
+    }
+}
+
+/// A field at flux points at the nodes, if the frames want it there.
+fn on_nodes(flux_points: &mut Option<FluxPoints>, field: Vec<f64>) -> Vec<f64> {
+    match flux_points {
+        Some(flux_points) => flux_points.at_nodes(&field),
+        None => field,
     }
 }
 

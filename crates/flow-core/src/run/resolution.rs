@@ -26,7 +26,7 @@ pub fn unresolved(layout: Layout, state: &[f64], nodes: usize, family: Derivativ
     let length = state[spectral.length_index()];
     let first_empty = 0.5 * (1.0 - EMPTY) * nodes as f64;
     let mut worst = 0.0_f64;
-    for field in 0..layout.fields() {
+    for field in 0..layout.state_fields() {
         let spectrum = &state[spectral.field(field)];
         // A turn of the tangent per length, a thousandth of full coverage, as in the norm of the errors.
         let floor = if field == 0 { 1.0 } else { (1e-3 * length).powi(2) };

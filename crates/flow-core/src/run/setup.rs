@@ -94,7 +94,7 @@ fn start(scene: &Scene, shape: &Shape, length: f64) -> Result<Start, SetupError>
     loop {
         match start_on(scene, shape, nodes) {
             Ok(start) => {
-                let aim = unresolved_bound(scene.accuracy.tolerance);
+                let aim = unresolved_bound(scene);
                 let needed = needed_nodes(layout(scene, nodes), &start.state, aim, family);
                 if needed == nodes || (needed > nodes && nodes >= MOST_FIRST_NODES) {
                     return Ok(start);

@@ -42,6 +42,7 @@ pub fn record(frames: usize, nodes: usize, densities: &[&str]) -> Record {
             factorisations: 9,
             solves: 10,
             remaps: 11,
+            unresolved_steps: 12,
             integration_seconds: 0.25,
         },
         stop_reason: StopReason::Equilibrium,

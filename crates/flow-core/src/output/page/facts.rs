@@ -34,7 +34,7 @@ fn laws(record: &Record) -> Vec<String> {
     ];
     if record.counters.remaps > 0 {
         rows.push(row(
-            "energy added by changes of the gauge, at most",
+            "energy added by changes of the nodes or the gauge, at most",
             &[largest(of_frames(|frame| frame.remap_error))],
         ));
     }
@@ -85,6 +85,9 @@ fn work(record: &Record) -> Vec<String> {
     ];
     if counters.remaps > 0 {
         rows.push(count("changes of the nodes or of the gauge", counters.remaps));
+    }
+    if counters.unresolved_steps > 0 {
+        rows.push(count("steps that the nodes do not resolve", counters.unresolved_steps));
     }
     rows.push(row("seconds of integration", &[counters.integration_seconds]));
     rows

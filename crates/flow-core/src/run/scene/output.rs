@@ -59,7 +59,8 @@ names! {
 
 names! {
     /// A field that frames hold on request. Fluxes and tangential velocities live at the flux points of the derivative
-    /// family: the nodes for `fourier`, else the middle between a node and the next.
+    /// family: the nodes for `fourier`, else the middle between a node and the next; at the nodes in any case where the program
+    /// chooses them.
     pub enum OutputField {
         /// The force f on the normal motion, before the mobility.
         NormalForce = "normal-force",

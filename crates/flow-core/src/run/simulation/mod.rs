@@ -37,9 +37,8 @@ pub struct Simulation {
     /// Chooses the nodes, if the scene leaves that to the program.
     adaptation: Option<Adaptation>,
     mesh: Mesh,
-    /// Accepted steps when the nodes were chosen, and how often a choice was not carried out.
+    /// Accepted steps when the nodes were chosen.
     remapped_at: u64,
-    refused_remaps: u64,
     /// Changes of the gauge so far.
     switches: u64,
     tolerance: f64,
@@ -185,8 +184,8 @@ impl Simulation {
 
     /// Counters with the time spent.
     fn counters_with_time(&self) -> Counters {
-        let integration_seconds = self.record.counters.integration_seconds;
-        Counters { integration_seconds, ..*self.integration.counters() }
+        let Counters { integration_seconds, unresolved_steps, .. } = self.record.counters;
+        Counters { integration_seconds, unresolved_steps, ..*self.integration.counters() }
     }
 
     fn in_contact(&mut self) -> bool {

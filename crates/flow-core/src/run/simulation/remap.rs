@@ -5,7 +5,7 @@ use std::time::Instant;
 use super::Simulation;
 use crate::flow::Regrading;
 use crate::integrator::{Adaptive, AdaptiveOptions, Bdf, Factorisation, Finish, Problem, Stepper};
-use crate::run::adaptation::Plan;
+use crate::run::adaptation::{Look, Plan};
 use crate::run::mesh::Mesh;
 
 /// Part of the energy lost so far below which an energy counts as zero.
@@ -18,11 +18,12 @@ impl Simulation {
         let clock = Instant::now();
         let age = self.counters().steps - self.remapped_at;
         let state = self.integration.stepper().state();
-        if let Some(plan) = adaptation.plan(&mut self.membrane, state, &self.mesh, age)
-            && self.remap(&plan, time, energy).is_none()
-        {
-            self.refused_remaps += 1;
-        }
+        let served = match adaptation.look(&mut self.membrane, state, &self.mesh, age) {
+            Look::Serve => true,
+            Look::Change(plan) => self.remap(&plan, time, energy).is_some() || plan.mesh.nodes < self.mesh.nodes,
+            Look::Unresolved => false,
+        };
+        self.record.counters.unresolved_steps += u64::from(!served);
         self.record.counters.integration_seconds += clock.elapsed().as_secs_f64();
     }
 

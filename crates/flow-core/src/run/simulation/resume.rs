@@ -27,7 +27,6 @@ pub struct Memory {
     equilibrium: Option<Equilibrium>,
     mesh: Mesh,
     remapped_at: u64,
-    refused_remaps: u64,
     switches: u64,
 }
 
@@ -86,7 +85,6 @@ impl Simulation {
             equilibrium: self.equilibrium.clone(),
             mesh: self.mesh.clone(),
             remapped_at: self.remapped_at,
-            refused_remaps: self.refused_remaps,
             switches: self.switches,
         }
     }
@@ -162,7 +160,7 @@ impl Simulation {
         simulation.equilibrium = memory.equilibrium;
         simulation.scratch = vec![0.0; simulation.membrane.size()];
         (simulation.mesh, simulation.remapped_at) = (memory.mesh, memory.remapped_at);
-        (simulation.refused_remaps, simulation.switches) = (memory.refused_remaps, memory.switches);
+        simulation.switches = memory.switches;
         Ok(simulation)
     }
 }

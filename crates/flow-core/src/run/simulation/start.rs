@@ -85,7 +85,6 @@ impl Simulation {
             adaptation,
             mesh,
             remapped_at: 0,
-            refused_remaps: 0,
             switches: 0,
             tolerance: scene.accuracy.tolerance,
             start,

@@ -1,0 +1,70 @@
+//! The nodes that crowd where a state varies on small scales. See `THEORY.md`, eq. (D13).
+
+use std::sync::Arc;
+
+use super::{Adaptation, Plan};
+use crate::flow::{Regrading, local_wave_numbers};
+use crate::geometry::{Grading, Layout, follow_scales};
+use crate::run::membrane::Membrane;
+use crate::run::mesh::Mesh;
+use crate::run::resolution::{LEAST_NODES, MOST_NODES, size_above, unresolved};
+
+/// Ratio of the numbers of nodes that are tried.
+const NEXT: f64 = 1.2;
+/// More nodes at a time than this factor are a guess.
+const MOST_GROWTH: usize = 2;
+/// A grading that spreads less than this is not worth its products.
+const LEAST_SPREAD: f64 = 2.0;
+
+impl Adaptation {
+    /// The fewest nodes found, near `nodes` of them, on which only the part `aim` of the spectral `state` of `membrane` is not
+    /// resolved, with that part.
+    pub(super) fn crowds(
+        &self,
+        membrane: &mut Membrane,
+        state: &[f64],
+        nodes: usize,
+        aim: f64,
+    ) -> Option<(f64, Plan)> {
+        let turning_number = membrane.turning_number();
+        let flow = membrane.flow();
+        flow.set_current(state);
+        let waves = local_wave_numbers(flow);
+        let uniform = || (0..nodes).map(|i| i as f64 / nodes as f64).collect();
+        let fractions = flow.current().grading().map_or_else(uniform, Grading::fractions);
+        let densities = flow.layout().densities();
+        // A trial is a regrading of this state alone, and what is not resolved of it is measured.
+        let mut attempt = |nodes: usize| {
+            let samples = follow_scales(&fractions, &waves, nodes);
+            let spread = is_spread(&samples);
+            let grading = if spread { Some(Arc::new(Grading::new(&samples).ok()?)) } else { None };
+            let layout = Layout::new(nodes, densities);
+            let mut way = Regrading::new(flow, layout, grading.clone(), turning_number);
+            let trial = way.apply(flow, state).ok()?;
+            let part = unresolved(layout, &trial, nodes, self.families[usize::from(spread)]);
+            let mesh = Mesh { nodes, samples: spread.then_some(samples) };
+            Some((part, Plan { mesh, regraded: Some(grading) }))
+        };
+        let mut best = attempt(nodes)?;
+        if !self.counts {
+            return Some(best);
+        }
+        let most = MOST_NODES.min(MOST_GROWTH * nodes);
+        while best.0 > aim && best.1.mesh.nodes < most {
+            best = attempt(size_above(NEXT * best.1.mesh.nodes as f64))?;
+        }
+        while best.0 <= aim && best.1.mesh.nodes > LEAST_NODES {
+            match attempt(size_above(best.1.mesh.nodes as f64 / NEXT.powi(2))) {
+                Some(fewer) if fewer.0 <= aim => best = fewer,
+                _ => break,
+            }
+        }
+        Some(best)
+    }
+}
+
+/// Whether a grading differs enough from the uniform one.
+fn is_spread(samples: &[f64]) -> bool {
+    let least = samples.iter().copied().fold(f64::INFINITY, f64::min);
+    samples.iter().any(|w| *w > LEAST_SPREAD * least)
+}

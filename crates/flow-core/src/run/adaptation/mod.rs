@@ -1,0 +1,113 @@
+//! Decides when a run goes on with other nodes: more where the solution asks for them, fewer where it allows. See
+//! `THEORY.md`, eqs. (D12) and (D13).
+
+mod bound;
+mod crowds;
+
+use std::sync::Arc;
+
+use super::membrane::Membrane;
+use super::mesh::Mesh;
+use super::resolution::{LEAST_NODES, MOST_NODES, needed_nodes, unresolved};
+use super::scene::{Gauge, Nodes, Scene};
+use super::setup::family;
+use crate::geometry::{Grading, resample};
+use crate::operators::DerivativeFamily;
+pub(super) use bound::unresolved_bound;
+
+/// Steps on the same nodes before the first look at whether fewer would do; then after twice as many, and so on.
+const FIRST_LOOK: u64 = 8;
+/// Part of the bound that fewer nodes must meet, and that new ones must where those at hand do not serve.
+const MARGIN_OF_FEWER: f64 = 0.3;
+const MARGIN_OF_MORE: f64 = 0.6;
+/// Fewer nodes must save this part of them.
+const WORTHWHILE: f64 = 0.7;
+/// A new grading of as many nodes must lower what is not resolved by this factor.
+const BETTER: f64 = 0.3;
+
+/// What a scene leaves to the program.
+#[derive(Clone, Debug)]
+pub struct Adaptation {
+    /// Part of a state that may be left unresolved.
+    bound: f64,
+    /// Whether the number of nodes is free.
+    counts: bool,
+    /// Whether the grading is.
+    grades: bool,
+    /// The derivatives on equidistant and on graded nodes.
+    families: [DerivativeFamily; 2],
+}
+
+/// The nodes that a run goes on with.
+#[derive(Clone, Debug)]
+pub(super) struct Plan {
+    pub mesh: Mesh,
+    /// Their grading, if it is a new one; otherwise the parameter s of each point of the curve stays.
+    pub regraded: Option<Option<Arc<Grading>>>,
+}
+
+/// What a look at the nodes found.
+#[derive(Clone, Debug)]
+pub(super) enum Look {
+    /// They serve.
+    Serve,
+    /// Others would be better.
+    Change(Plan),
+    /// They do not serve, and no others are allowed.
+    Unresolved,
+}
+
+impl Adaptation {
+    /// For `scene`; none if it leaves nothing to the program.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Option<Self> {
+        let counts = scene.accuracy.nodes == Nodes::Auto;
+        let grades = scene.flow.gauge == Gauge::Graded && scene.flow.grading.is_none();
+        (counts || grades).then(|| Self {
+            bound: unresolved_bound(scene),
+            counts,
+            grades,
+            families: [false, true].map(|graded| family(scene, graded)),
+        })
+    }
+
+    /// Whether the grading is chosen.
+    #[must_use]
+    pub fn grades(&self) -> bool {
+        self.grades
+    }
+
+    /// Whether other nodes are better for the spectral `state` of `membrane`, which has been on those of `mesh` for `age` steps.
+    pub(super) fn look(&self, membrane: &mut Membrane, state: &[f64], mesh: &Mesh, age: u64) -> Look {
+        let layout = membrane.layout();
+        let family = self.families[usize::from(membrane.flow().grading().is_some())];
+        let part = unresolved(layout, state, layout.nodes(), family);
+        let resolved = part <= self.bound;
+        if resolved && !(age >= FIRST_LOOK && age.is_power_of_two()) {
+            return Look::Serve;
+        }
+        let aim = self.bound * if resolved { MARGIN_OF_FEWER } else { MARGIN_OF_MORE };
+        let needed = |state| needed_nodes(layout, state, aim, family).clamp(LEAST_NODES, MOST_NODES);
+        let same = if self.counts { needed(state) } else { mesh.nodes };
+        let crowds = if self.grades { self.crowds(membrane, state, mesh.nodes, aim) } else { None };
+        let worthwhile = |nodes: usize, than: usize| (nodes as f64) < WORTHWHILE * than as f64;
+        if let Some((unresolved, plan)) = crowds {
+            let nodes = plan.mesh.nodes;
+            let better = unresolved < BETTER * part && part > BETTER * self.bound;
+            let serves = !resolved && self.counts && nodes <= same;
+            if serves || worthwhile(nodes, same.min(mesh.nodes)) || (!self.counts && better) {
+                return Look::Change(plan);
+            }
+        }
+        if self.counts && (worthwhile(same, mesh.nodes) || (!resolved && same > mesh.nodes)) {
+            return Look::Change(Plan { mesh: with_nodes(mesh, same), regraded: None });
+        }
+        if resolved { Look::Serve } else { Look::Unresolved }
+    }
+}
+
+/// The mesh with other nodes at the same parameters.
+fn with_nodes(mesh: &Mesh, nodes: usize) -> Mesh {
+    let samples = mesh.samples.as_ref().map(|samples| resample(samples, Grading::samples(nodes)));
+    Mesh { nodes, samples }
+}
