@@ -1,0 +1,92 @@
+//! How long the parts of an evaluation take: a short replay at one state, after a run, so that the run itself has no clocks in
+//! its kernels.
+
+use std::time::Instant;
+
+use super::GradientFlow;
+use crate::flow::energy_sum::TermCost;
+
+/// Seconds of one part in one evaluation of each kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EvaluationCost {
+    /// In [`GradientFlow::spectral_rate`].
+    pub rate: f64,
+    /// In [`GradientFlow::spectral_dissipation`].
+    pub check: f64,
+    /// In [`GradientFlow::spectral_linearise`] with [`GradientFlow::frozen_rate`].
+    pub linearisation: f64,
+    /// In [`GradientFlow::spectral_jacobian_product`].
+    pub product: f64,
+}
+
+/// Seconds by part; what is left of an evaluation belongs to the flow map and to the transforms.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PartCosts {
+    /// Of each term, with the machinery that it alone needs, in their order.
+    pub terms: Vec<EvaluationCost>,
+    /// The normal mobility.
+    pub normal_mobility: EvaluationCost,
+    /// The mobilities of the densities, together.
+    pub density_mobilities: EvaluationCost,
+}
+
+/// The least times count: the first round finds cold caches.
+const FEWEST_ROUNDS: usize = 2;
+const MOST_ROUNDS: usize = 20;
+
+impl GradientFlow {
+    /// Measures the parts at the spectral `state`, in rounds that end after `limit` seconds; at least two of them.
+    ///
+    /// The state evaluated last is then `state`; linearise anew before further products.
+    pub fn part_costs(&mut self, state: &[f64], limit: f64) -> PartCosts {
+        self.spectral_dissipation(state);
+        let mut terms = vec![TermCost::LARGEST; 1 + self.energy.names().count()];
+        let (mut set, mut apply, mut density) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);
+        let clock = Instant::now();
+        for round in 0..MOST_ROUNDS {
+            if round >= FEWEST_ROUNDS && clock.elapsed().as_secs_f64() > limit {
+                break;
+            }
+            // Before the terms: they leave another gradient behind.
+            density = density.min(seconds(|| _ = self.add_density_dissipation(0.0)));
+            let Self { current, current_mobility, force, velocity, energy, gradient, .. } = self;
+            // Where the mobility is not defined, that it finds so is all that it costs.
+            set = set.min(seconds(|| _ = current_mobility.set(current)));
+            apply = apply.min(seconds(|| current_mobility.apply(current, force, velocity)));
+            energy.measure_terms(current, state, gradient, &mut terms);
+        }
+        PartCosts {
+            terms: terms[1..].iter().map(|term| EvaluationCost::of_term(term.over(terms[0]))).collect(),
+            normal_mobility: EvaluationCost {
+                rate: set + apply,
+                check: set + apply,
+                linearisation: set + apply,
+                product: apply,
+            },
+            // A rate has them in the dissipation as well.
+            density_mobilities: EvaluationCost {
+                rate: 2.0 * density,
+                check: density,
+                linearisation: density,
+                product: density,
+            },
+        }
+    }
+}
+
+impl EvaluationCost {
+    fn of_term(cost: TermCost) -> Self {
+        Self {
+            rate: cost.gradient,
+            check: cost.gradient,
+            linearisation: cost.linearisation,
+            product: cost.product,
+        }
+    }
+}
+
+fn seconds(call: impl FnOnce()) -> f64 {
+    let clock = Instant::now();
+    call();
+    clock.elapsed().as_secs_f64()
+}
