@@ -1,4 +1,4 @@
-//! Where the time of the steps goes, without costing any: the clock runs in few of them, the calls are counted in all.
+//! Where the time of the steps goes, at next to no cost: the clock runs in few of them, the calls are counted in all.
 //!
 //! A call takes microseconds, a look at the clock a few hundredths of one, and there are two of them for each call. The time of
 //! all calls is that of the clocked ones times the ratio of their numbers; nothing of it acts on the steps.
@@ -49,12 +49,26 @@ const STRIDE: u64 = 17;
 /// The first steps are clocked all, for the sake of short runs.
 const FIRST: u64 = 4;
 
+/// A lap of more than a millisecond that is so many times as long as those before it in the mean is not the program's: the
+/// machine did something else. It counts as one of the others.
+const INTERRUPTED: f64 = 20.0;
+const SHORT: f64 = 1e-3;
+
 /// Calls of one activity, those that were clocked, and their time.
 #[derive(Clone, Copy, Debug, Default)]
 struct Tally {
     calls: u64,
     clocked: u64,
+    laps: u64,
     seconds: f64,
+}
+
+impl Tally {
+    fn book(&mut self, lap: f64) {
+        let mean = self.seconds / self.laps as f64; // NaN before the first: no lap is longer than that
+        self.seconds += if lap > SHORT && lap > INTERRUPTED * mean { mean } else { lap };
+        self.laps += 1;
+    }
 }
 
 /// Counts and clocks.
@@ -90,7 +104,7 @@ impl Stopwatch {
     /// Seconds of all calls: those of the clocked ones times the ratio of their numbers.
     #[must_use]
     pub fn seconds(&self, activity: Activity) -> f64 {
-        let Tally { calls, clocked, seconds } = self.tallies[activity as usize];
+        let Tally { calls, clocked, seconds, .. } = self.tallies[activity as usize];
         if clocked == 0 { 0.0 } else { seconds * calls as f64 / clocked as f64 }
     }
 
@@ -98,9 +112,15 @@ impl Stopwatch {
         &mut self.tallies[activity as usize]
     }
 
-    /// Counts a call and, if the clock runs, the time before it.
-    fn call(&mut self, activity: Activity) {
-        self.turn_to(activity);
+    /// Whether a call now is to be clocked although its step is not: what is rare would be missed else. The very first call, which
+    /// finds cold caches, is not.
+    fn lacks(&self, activity: Activity) -> bool {
+        let Tally { calls, clocked, .. } = self.tallies[activity as usize];
+        self.lap.is_none() && STRIDE * clocked < calls
+    }
+
+    /// Counts a call.
+    fn count(&mut self, activity: Activity) {
         let clocked = self.lap.is_some();
         let tally = self.tally(activity);
         tally.calls += 1;
@@ -111,7 +131,7 @@ impl Stopwatch {
     fn turn_to(&mut self, activity: Activity) {
         if let Some((before, since)) = self.lap {
             let now = Instant::now();
-            self.tally(before).seconds += (now - since).as_secs_f64();
+            self.tally(before).book((now - since).as_secs_f64());
             self.lap = Some((activity, now));
         }
     }
@@ -132,7 +152,15 @@ impl<'a, P: Problem> Clocked<'a, P> {
     }
 
     fn during<T>(&mut self, activity: Activity, then: Activity, call: impl FnOnce(&mut P) -> T) -> T {
-        self.watch.call(activity);
+        if self.watch.lacks(activity) {
+            self.watch.lap = Some((activity, Instant::now()));
+            self.watch.count(activity);
+            let result = call(self.problem);
+            self.watch.end_step();
+            return result;
+        }
+        self.watch.turn_to(activity);
+        self.watch.count(activity);
         let result = call(self.problem);
         self.watch.turn_to(then);
         result
@@ -162,11 +190,7 @@ impl<P: Problem> Problem for Clocked<'_, P> {
 
     fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
         self.during(Activity::JacobianProduct, Activity::Krylov, |problem| problem.jacobian_product(v, out));
-        // Each product is one Krylov iteration.
-        let clocked = self.watch.lap.is_some();
-        let krylov = self.watch.tally(Activity::Krylov);
-        krylov.calls += 1;
-        krylov.clocked += u64::from(clocked);
+        self.watch.count(Activity::Krylov); // each product is one iteration
     }
 
     fn factorise(&mut self, gamma: f64) -> bool {
@@ -196,5 +220,50 @@ impl<P: Problem> Problem for Clocked<'_, P> {
 
     fn accepted(&mut self, time: f64, integrals: [f64; INTEGRALS]) {
         self.problem.accepted(time, integrals);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn interruptions_count_as_one_of_the_other_laps() {
+        let mut tally = Tally::default();
+        [2e-3, 4e-3, 1.0, 0.03].into_iter().for_each(|lap| tally.book(lap));
+        assert!((tally.seconds - 0.039).abs() < 1e-15, "{tally:?}");
+        let mut short = Tally::default();
+        [1e-8, 9e-4].into_iter().for_each(|lap| short.book(lap));
+        assert!((short.seconds - 9.0001e-4).abs() < 1e-15, "{short:?}");
+    }
+
+    #[test]
+    fn calls_are_counted_in_all_steps_and_clocked_in_some() {
+        let mut watch = Stopwatch::default();
+        for _ in 0..40 {
+            watch.start_step();
+            watch.turn_to(Activity::Solve);
+            watch.count(Activity::Solve);
+            watch.turn_to(Activity::Krylov);
+            watch.end_step();
+        }
+        assert_eq!((watch.calls(Activity::Solve), watch.calls(Activity::StepControl)), (40, 40));
+        // Steps 0 to 3, 17 and 34.
+        assert_eq!(watch.tally(Activity::Solve).clocked, 6);
+        assert!(watch.seconds(Activity::Solve) > 0.0);
+        assert_eq!(watch.seconds(Activity::Check), 0.0);
+    }
+
+    #[test]
+    fn what_is_rare_is_clocked_in_any_step() {
+        let mut watch = Stopwatch::default();
+        assert!(!watch.lacks(Activity::Factorisation));
+        watch.count(Activity::Factorisation);
+        assert!(watch.lacks(Activity::Factorisation));
+        watch.start_step(); // is clocked anyhow
+        assert!(!watch.lacks(Activity::Factorisation));
+        watch.count(Activity::Factorisation);
+        watch.end_step();
+        assert!(!watch.lacks(Activity::Factorisation));
     }
 }

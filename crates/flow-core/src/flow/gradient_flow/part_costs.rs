@@ -20,8 +20,10 @@ pub struct EvaluationCost {
 }
 
 /// Seconds by part; what is left of an evaluation belongs to the flow map and to the transforms.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PartCosts {
+    /// All parts together.
+    pub whole: EvaluationCost,
     /// Of each term, with the machinery that it alone needs, in their order.
     pub terms: Vec<EvaluationCost>,
     /// The normal mobility.
@@ -39,14 +41,15 @@ impl GradientFlow {
     ///
     /// The state evaluated last is then `state`; linearise anew before further products.
     pub fn part_costs(&mut self, state: &[f64], limit: f64) -> PartCosts {
-        self.spectral_dissipation(state);
         let mut terms = vec![TermCost::LARGEST; 1 + self.energy.names().count()];
         let (mut set, mut apply, mut density) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);
+        let (mut whole, mut scratch) = (EvaluationCost::LARGEST, vec![0.0; state.len()]);
         let clock = Instant::now();
         for round in 0..MOST_ROUNDS {
             if round >= FEWEST_ROUNDS && clock.elapsed().as_secs_f64() > limit {
                 break;
             }
+            self.measure_whole(state, &mut scratch, &mut whole);
             // Before the terms: they leave another gradient behind.
             density = density.min(seconds(|| _ = self.add_density_dissipation(0.0)));
             let Self { current, current_mobility, force, velocity, energy, gradient, .. } = self;
@@ -56,6 +59,7 @@ impl GradientFlow {
             energy.measure_terms(current, state, gradient, &mut terms);
         }
         PartCosts {
+            whole,
             terms: terms[1..].iter().map(|term| EvaluationCost::of_term(term.over(terms[0]))).collect(),
             normal_mobility: EvaluationCost {
                 rate: set + apply,
@@ -72,9 +76,28 @@ impl GradientFlow {
             },
         }
     }
+
+    /// Lowers `whole` to what a round of evaluations takes; the last of them is that of a check.
+    fn measure_whole(&mut self, state: &[f64], scratch: &mut [f64], whole: &mut EvaluationCost) {
+        whole.linearisation = whole.linearisation.min(seconds(|| {
+            self.spectral_linearise(state);
+            self.frozen_rate(scratch);
+        }));
+        whole.product = whole.product.min(seconds(|| self.spectral_jacobian_product(state, scratch)));
+        whole.rate = whole.rate.min(seconds(|| _ = self.spectral_rate(state, scratch)));
+        whole.check = whole.check.min(seconds(|| _ = self.spectral_dissipation(state)));
+    }
 }
 
 impl EvaluationCost {
+    /// Before any measurement.
+    const LARGEST: Self = Self {
+        rate: f64::INFINITY,
+        check: f64::INFINITY,
+        linearisation: f64::INFINITY,
+        product: f64::INFINITY,
+    };
+
     fn of_term(cost: TermCost) -> Self {
         Self {
             rate: cost.gradient,

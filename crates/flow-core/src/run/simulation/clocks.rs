@@ -53,27 +53,31 @@ impl Clocks {
             output: 0.0,
             evaluations: EvaluationSeconds::default(),
         };
-        seconds.evaluations = self.evaluations(costs, seconds.in_evaluations());
+        seconds.evaluations = self.evaluations(costs, &seconds);
         seconds
     }
 
-    /// The parts of the evaluations, which took `total` seconds.
-    fn evaluations(&self, costs: &PartCosts, total: f64) -> EvaluationSeconds {
+    /// The parts of the evaluations.
+    fn evaluations(&self, costs: &PartCosts, seconds: &Seconds) -> EvaluationSeconds {
         let calls = |activity| self.watch.calls(activity) as f64;
-        let seconds = |cost: &EvaluationCost| {
+        let beside_checks = |cost: &EvaluationCost| {
             calls(Activity::RightHandSide) * cost.rate
-                + calls(Activity::Check) * cost.check
                 + calls(Activity::Linearisation) * cost.linearisation
                 + calls(Activity::JacobianProduct) * cost.product
         };
+        let replayed = |cost: &EvaluationCost| beside_checks(cost) + calls(Activity::Check) * cost.check;
+        // The run may have been slower than the replay. A check does more than the replay of its evaluation tells.
+        let measured = seconds.right_hand_sides + seconds.linearisations + seconds.jacobian_products;
+        let slower = (measured / beside_checks(&costs.whole)).max(0.0); // 0 if there was no evaluation
+        let total = seconds.in_evaluations();
         let parts = costs.terms.iter().chain([&costs.normal_mobility, &costs.density_mobilities]);
-        let sum: f64 = parts.map(seconds).sum();
-        // The machine may be slower during the replay than during the run: parts are never more than the whole.
-        let scale = if sum > total { total / sum } else { 1.0 };
+        let sum: f64 = parts.map(|cost| slower * replayed(cost)).sum();
+        // Parts are never more than the whole.
+        let scale = if sum > total { slower * total / sum } else { slower };
         EvaluationSeconds {
-            terms: costs.terms.iter().map(|cost| scale * seconds(cost)).collect(),
-            normal_mobility: scale * seconds(&costs.normal_mobility),
-            density_mobilities: scale * seconds(&costs.density_mobilities),
+            terms: costs.terms.iter().map(|cost| scale * replayed(cost)).collect(),
+            normal_mobility: scale * replayed(&costs.normal_mobility),
+            density_mobilities: scale * replayed(&costs.density_mobilities),
             flow_map: (total - sum).max(0.0),
         }
     }

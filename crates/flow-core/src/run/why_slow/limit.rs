@@ -11,12 +11,12 @@ pub enum Limit {
     NotMeasured,
     /// The start takes most of the time.
     Start,
-    /// The frames do.
+    /// The frames and the files do, the frames more.
     Frames,
+    /// The frames and the files do, the files more.
+    Output,
     /// Those who watch do.
     Observers,
-    /// Checkpoints and the result file do.
-    Output,
     /// Steps are rejected because the energy rises.
     EnergyRises,
     /// Steps are rejected because values are not finite.
@@ -42,8 +42,8 @@ impl Limit {
         Self::NotMeasured,
         Self::Start,
         Self::Frames,
-        Self::Observers,
         Self::Output,
+        Self::Observers,
         Self::EnergyRises,
         Self::NotFinite,
         Self::ImplicitSolves,
@@ -51,7 +51,7 @@ impl Limit {
         Self::Accuracy,
     ];
 
-    /// Its name: `not-measured`, `start`, `frames`, `observers`, `output`, `energy-rises`, `not-finite`, `implicit-solves`, `term`
+    /// Its name: `not-measured`, `start`, `frames`, `output`, `observers`, `energy-rises`, `not-finite`, `implicit-solves`, `term`
     /// or `accuracy`.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -59,8 +59,8 @@ impl Limit {
             Self::NotMeasured => "not-measured",
             Self::Start => "start",
             Self::Frames => "frames",
-            Self::Observers => "observers",
             Self::Output => "output",
+            Self::Observers => "observers",
             Self::EnergyRises => "energy-rises",
             Self::NotFinite => "not-finite",
             Self::ImplicitSolves => "implicit-solves",
@@ -79,7 +79,11 @@ impl Limit {
         let rejected = |count: u64| count as f64 > REJECTED * attempts;
         match self {
             Self::NotMeasured => why.total <= 0.0,
-            Self::Start | Self::Frames | Self::Observers | Self::Output => why.share(self.name()) > MOST,
+            Self::Start | Self::Observers => why.share(self.name()) > MOST,
+            Self::Frames | Self::Output => {
+                let (frames, output) = (why.share("frames"), why.share("output"));
+                frames + output > MOST && (frames >= output) == (self == Self::Frames)
+            }
             Self::EnergyRises => rejected(why.rejections.energy_rise),
             Self::NotFinite => rejected(why.rejections.not_finite),
             Self::ImplicitSolves => {
@@ -103,17 +107,13 @@ impl Limit {
                 format!("the run is short: its start takes {} of the time", percent("start")),
                 "run many scenes in one process, from Python, rather than one in each",
             ),
-            Self::Frames => (
-                format!("making the frames takes {} of the time", percent("frames")),
-                "save fewer of them (output.frames), or fewer fields (output.fields)",
+            Self::Frames | Self::Output => (
+                format!("frames take {} of the time, and files {}", percent("frames"), percent("output")),
+                "save fewer frames (output.frames), or fewer fields (output.fields)",
             ),
             Self::Observers => (
                 format!("those who watch the run take {} of the time", percent("observers")),
                 "do less in the callback, or call it less often",
-            ),
-            Self::Output => (
-                format!("writing files takes {} of the time", percent("output")),
-                "save fewer frames (output.frames)",
             ),
             Self::EnergyRises => (
                 format!(
@@ -147,15 +147,13 @@ fn as_long_as_they_may_be(why: &WhySlow) -> String {
     )
 }
 
-/// What takes most of the time.
+/// What takes most of the time of the steps.
 fn most(why: &WhySlow) -> String {
-    let largest = why.activities.first();
+    let aside = ["start", "frames", "observers", "output"];
+    let largest = why.activities.iter().find(|share| !aside.contains(&share.name.as_str()));
     largest.map_or_else(String::new, |share| {
-        format!(
-            "most of the time, {:.0} %, goes into {}",
-            100.0 * share.share,
-            super::text::readable(&share.name)
-        )
+        let name = super::text::readable(&share.name);
+        format!("most of it goes into {name}, {:.0} % of the time", 100.0 * share.share)
     })
 }
 
