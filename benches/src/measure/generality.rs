@@ -7,7 +7,8 @@ use flow_core::integrator::{
 };
 use flow_core::run::{ENERGY_TOLERANCE_SHARE, Quiet, Scene, Setup, run};
 
-use super::interleaved::medians;
+use super::costs::seconds;
+use super::interleaved::{Times, in_turns};
 use crate::stripped::BendingOnly;
 
 const TOLERANCE: f64 = 1e-5;
@@ -70,11 +71,11 @@ pub struct Generality {
     /// Accepted steps, of all three.
     pub steps: u64,
     /// Seconds of the solver for bending alone.
-    pub stripped: f64,
+    pub stripped: Times,
     /// Seconds of the core's flow in the same step loop.
-    pub core: f64,
+    pub core: Times,
     /// Seconds of the program: with log, clocks and observer, without start and frames.
-    pub program: f64,
+    pub program: Times,
     /// Whether all end in the same state, to the last bit, after the same work.
     pub same_bits: bool,
 }
@@ -100,7 +101,7 @@ pub fn generality(nodes: usize, rounds: usize) -> Generality {
     let work = |counters: &Counters| Counters { integration_seconds: 0.0, ..*counters };
     let same_work =
         work(&one.counters) == work(&other.counters) && work(&record.counters) == work(&one.counters);
-    let [stripped, core, program] = medians(
+    let [stripped, core, program] = in_turns(
         rounds,
         [&|| stripped().seconds, &|| core().seconds, &|| {
             let record = program();
@@ -117,12 +118,41 @@ pub fn generality(nodes: usize, rounds: usize) -> Generality {
     }
 }
 
+/// Names of the calls of [`calls`].
+pub const CALLS: [&str; 7] =
+    ["right-hand side", "linearisation", "J·v", "factorisation", "solve", "weights of a residual", "check"];
+
+/// Least seconds of one call each of the solver for bending alone and of the core, in the order of [`CALLS`].
+#[must_use]
+pub fn calls(nodes: usize) -> [[f64; CALLS.len()]; 2] {
+    let Setup { membrane, state, placement, .. } = setup(&bending(nodes));
+    [least(BendingOnly::new(nodes, RIGIDITY, placement.angle), &state), least(membrane, &state)]
+}
+
+fn least<P: Problem>(mut problem: P, state: &[f64]) -> [f64; CALLS.len()] {
+    const GAMMA: f64 = 1e-5;
+    let (mut out, mut y) = (vec![0.0; state.len()], state.to_vec());
+    let rate = seconds(|| problem.rate(state, &mut out));
+    let linearisation = seconds(|| problem.linearise(state, &mut out));
+    let v = out.clone();
+    let product = seconds(|| problem.jacobian_product(&v, &mut out));
+    let factorisation = seconds(|| _ = problem.factorise(GAMMA));
+    let solve = seconds(|| problem.precondition(&mut out));
+    out.copy_from_slice(&v);
+    let weights = seconds(|| problem.weigh(&mut out));
+    let check = seconds(|| {
+        y.copy_from_slice(state);
+        problem.finish(0.0, &mut y);
+    });
+    [rate, linearisation, product, factorisation, solve, weights, check]
+}
+
 /// Seconds of the steps of a shipped scene without and with the stopwatch of a run.
 ///
 /// # Panics
 /// If there is no such scene, or a run fails.
 #[must_use]
-pub fn clocks(name: &str, rounds: usize) -> [f64; 2] {
+pub fn clocks(name: &str, rounds: usize) -> [Times; 2] {
     let (_, text) = Scene::shipped().iter().find(|(shipped, _)| *shipped == name).expect("a shipped scene");
     let scene = Scene::parse(text, name).expect("shipped scenes are valid");
     // Once at rest, steps cost nothing but rounding: the equilibrium of three_fold is before.
@@ -131,5 +161,5 @@ pub fn clocks(name: &str, rounds: usize) -> [f64; 2] {
         let Setup { membrane, state, .. } = setup(&scene);
         drive(membrane, state, end, watch).seconds
     };
-    medians(rounds, [&|| timed(None), &|| timed(Some(Stopwatch::default()))])
+    in_turns(rounds, [&|| timed(None), &|| timed(Some(Stopwatch::default()))])
 }

@@ -11,8 +11,8 @@ mod outcome;
 
 pub use case::{AUXILIARY, Case};
 pub use costs::{Costs, SIZES, costs, exponent};
-pub use generality::{Generality, clocks, generality};
-pub use interleaved::medians;
+pub use generality::{CALLS, Generality, calls, clocks, generality};
+pub use interleaved::{Times, in_turns};
 pub use iterations::{GAMMAS, REDUCTION, SOLVERS, iterations};
 pub use method::Method;
 pub use outcome::{Outcome, Unfinished};

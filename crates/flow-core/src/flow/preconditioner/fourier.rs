@@ -82,14 +82,14 @@ impl FourierSymbol {
         let (fields, modes) = (self.fields, self.modes);
         match fields {
             1 => {
-                for (value, inverse) in spectra.iter_mut().zip(&self.inverse).skip(first) {
+                for (value, inverse) in spectra[first..].iter_mut().zip(&self.inverse[first..]) {
                     *value *= *inverse;
                 }
             }
             2 => {
                 let (kappa, rho) = spectra.split_at_mut(modes);
-                let blocks = self.inverse.chunks_exact(4);
-                for ((kappa, rho), block) in kappa.iter_mut().zip(rho).zip(blocks).skip(first) {
+                let blocks = self.inverse[4 * first..].chunks_exact(4);
+                for ((kappa, rho), block) in kappa[first..].iter_mut().zip(&mut rho[first..]).zip(blocks) {
                     let (a, b) = (*kappa, *rho);
                     *kappa = a * block[0] + b * block[1];
                     *rho = a * block[2] + b * block[3];
