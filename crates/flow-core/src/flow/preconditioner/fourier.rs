@@ -57,6 +57,9 @@ impl FourierSymbol {
                 means[a * fields + b] = if a == b { mean(a, a).max(0.0) } else { mean(a, b) };
             }
         }
+        if fields == 1 {
+            return self.set_single(flow, gamma, first, length);
+        }
         for (mode, symbol) in self.laplacian.iter().enumerate().skip(first) {
             for a in 0..fields {
                 let mobility = gamma * mobility_symbol(flow, a, *symbol, length);
@@ -74,6 +77,21 @@ impl FourierSymbol {
                     }
                 }
             }
+        }
+    }
+
+    /// As [`FourierSymbol::set`] for the curvature alone: its blocks are numbers, inverted in whole vector registers.
+    fn set_single(&mut self, flow: &GradientFlow, gamma: f64, first: usize, length: f64) {
+        let (mean, coefficient) = (self.means[0], flow.energy_terms().stiffness()[0]);
+        let (inverse, laplacian) = (&mut self.inverse[first..], &self.laplacian[first..]);
+        for (mobility, symbol) in inverse.iter_mut().zip(laplacian) {
+            *mobility = gamma * mobility_symbol(flow, 0, *symbol, length);
+        }
+        for (inverse, symbol) in inverse.iter_mut().zip(laplacian) {
+            let mobility = *inverse;
+            let stiffness = coefficient * symbol / (length * length);
+            let value = 1.0 / (mobility * mean + (1.0 + mobility * stiffness));
+            *inverse = if value.is_finite() { value } else { 1.0 };
         }
     }
 

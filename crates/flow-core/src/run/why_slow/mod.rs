@@ -80,6 +80,12 @@ impl WhySlow {
         why
     }
 
+    /// What people call an activity, or a part of the evaluations.
+    #[must_use]
+    pub fn readable(name: &str) -> &str {
+        text::readable(name)
+    }
+
     /// The share of `activity`.
     fn share(&self, activity: &str) -> f64 {
         self.activities.iter().find(|share| share.name == activity).map_or(0.0, |share| share.share)
