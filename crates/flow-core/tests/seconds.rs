@@ -6,7 +6,6 @@ use flow_core::run::{
     Counters, Limit, Observer, Progress, Quiet, Record, Rejections, Scene, Seconds, Simulation, WhySlow, run,
 };
 
-#[allow(dead_code)]
 mod synthetic;
 
 /// A shipped scene up to `end`.

@@ -107,10 +107,9 @@ impl Limit {
                 format!("the run is short: its start takes {} of the time", percent("start")),
                 "run many scenes in one process, from Python, rather than one in each",
             ),
-            Self::Frames | Self::Output => (
-                format!("frames take {} of the time, and files {}", percent("frames"), percent("output")),
-                "save fewer frames (output.frames), or fewer fields (output.fields)",
-            ),
+            Self::Frames | Self::Output => {
+                (saving(why), "save fewer frames (output.frames), or fewer fields (output.fields)")
+            }
             Self::Observers => (
                 format!("those who watch the run take {} of the time", percent("observers")),
                 "do less in the callback, or call it less often",
@@ -138,6 +137,12 @@ impl Limit {
         };
         (sentence, advice.to_owned())
     }
+}
+
+fn saving(why: &WhySlow) -> String {
+    let (frames, output) = (100.0 * why.share("frames"), 100.0 * why.share("output"));
+    let files = if output > 0.0 { format!(", and files {output:.0} %") } else { String::new() };
+    format!("frames take {frames:.0} % of the time{files}")
 }
 
 fn as_long_as_they_may_be(why: &WhySlow) -> String {

@@ -142,8 +142,8 @@ fn bar(name: &str, low: f64, high: f64) -> String {
          <div style=\"width:{SIZE}px;display:flex;justify-content:space-between;font-size:12px\">\
          <span>{}</span><span style=\"overflow-wrap:anywhere;padding:0 0.5em\">{name}</span><span>{}</span></div>",
         stops.join(","),
-        short(low),
-        short(high)
+        short(low, 3),
+        short(high, 3)
     )
 }
 

@@ -12,11 +12,16 @@ use super::text::escaped;
 use crate::run::{Frame, Record, StopReason, WhySlow};
 use number::short;
 
-const BOX: &str = "display:flex;flex-wrap:wrap;gap:1.2em;align-items:flex-start;max-width:56em;padding:0.8em 1em;\
+const BOX: &str = "display:flex;flex-wrap:wrap;gap:1.2em;align-items:flex-start;max-width:60em;padding:0.8em 1em;\
                    border:1px solid rgba(128,128,128,0.4);border-radius:6px;font:13px/1.45 system-ui,sans-serif;\
                    color:inherit";
-const CELL: &str = "padding:0.1em 0.9em 0.1em 0;text-align:left;vertical-align:top;border:none";
+const CELL: &str = "padding:0.1em 0.8em 0.1em 0;text-align:left;vertical-align:top;border:none";
 const NAME: &str = "opacity:0.7";
+/// Significant digits of values, and of errors and times.
+const DIGITS: i32 = 5;
+const FEW_DIGITS: i32 = 3;
+/// Part of the energy by which rounding may raise it in a step.
+const ROUNDING: f64 = 1e-13;
 
 /// The fragment of `record`. All that comes from the record is escaped.
 #[must_use]
@@ -51,7 +56,7 @@ fn head(html: &mut String, record: &Record) {
         escaped(title),
         record.stop_reason.name(),
         escaped(record.stop_reason.message()),
-        short(record.frames.last().map_or(f64::NAN, |frame| frame.time)),
+        short(record.frames.last().map_or(f64::NAN, |frame| frame.time), DIGITS),
         record.frames.len(),
         record.nodes()
     );
@@ -61,7 +66,7 @@ fn head(html: &mut String, record: &Record) {
 fn table(html: &mut String, title: &str, rows: &[(String, String)]) {
     let _ = write!(
         html,
-        "<table style=\"border-collapse:collapse;margin:0.5em 0 0;background:none\">\
+        "<table style=\"font:inherit;color:inherit;border-collapse:collapse;margin:0.5em 0 0;background:none\">\
          <tr><th colspan=\"2\" style=\"{CELL};font-weight:600\">{title}</th></tr>"
     );
     for (name, value) in rows {
@@ -77,23 +82,28 @@ fn laws(record: &Record) -> Vec<(String, String)> {
     let frames = &record.frames;
     let of_frames = |value: fn(&Frame) -> f64| frames.iter().map(value).collect::<Vec<_>>();
     let ends = |value: fn(&Frame) -> f64| {
-        [frames.first(), frames.last()].map(|end| short(end.map_or(f64::NAN, value))).join(" → ")
+        [frames.first(), frames.last()].map(|end| short(end.map_or(f64::NAN, value), DIGITS)).join(" → ")
     };
     let rise = largest_rise(record);
-    let fell = if rise == 0.0 { "fell at every step".to_owned() } else { format!("rose by {}", short(rise)) };
+    let least = frames.iter().map(|frame| frame.energy.abs()).fold(f64::INFINITY, f64::min);
+    let fell = match rise {
+        0.0 => "fell at every step".to_owned(),
+        _ if rise <= ROUNDING * least => "fell at every step, to rounding".to_owned(),
+        _ => format!("rose by {}", short(rise, FEW_DIGITS)),
+    };
     let mut rows = vec![
         ("energy".to_owned(), ends(|frame| frame.energy)),
         ("the energy".to_owned(), fell),
-        ("balance off by".to_owned(), short(largest(of_frames(|frame| frame.energy_balance)))),
+        ("balance off by".to_owned(), short(largest(of_frames(|frame| frame.energy_balance)), FEW_DIGITS)),
         ("length".to_owned(), ends(|frame| frame.length)),
         ("area".to_owned(), ends(|frame| frame.area)),
     ];
     for (k, name) in record.densities.iter().enumerate() {
         let mass = change(frames.iter().map(|frame| frame.mass[k]).collect());
-        rows.push((format!("mass of {} off by", escaped(name)), short(mass)));
+        rows.push((format!("mass of {} off by", escaped(name)), short(mass, FEW_DIGITS)));
     }
     let gap = largest(of_frames(|frame| frame.closure_defect / frame.length));
-    rows.push(("gap at closure / length".to_owned(), short(gap)));
+    rows.push(("gap at closure / length".to_owned(), short(gap, FEW_DIGITS)));
     rows
 }
 
@@ -105,7 +115,7 @@ fn work(record: &Record) -> Vec<(String, String)> {
         ("right-hand sides", counters.right_hand_sides.to_string()),
         ("Krylov iterations", counters.krylov_iterations.to_string()),
         ("factorisations", counters.factorisations.to_string()),
-        ("integration", format!("{} s", short(counters.integration_seconds))),
+        ("integration", format!("{} s", short(counters.integration_seconds, FEW_DIGITS))),
     ];
     if let Some(most) = why.activities.first().filter(|most| most.seconds > 0.0) {
         let name = WhySlow::readable(&most.name);

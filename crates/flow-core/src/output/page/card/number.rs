@@ -1,8 +1,7 @@
 //! Numbers in tables.
 
-/// `value` with at most five significant digits, as a person writes it.
-pub(super) fn short(value: f64) -> String {
-    const DIGITS: i32 = 5;
+/// `value` with at most `digits` significant digits, as a person writes it.
+pub(super) fn short(value: f64, digits: i32) -> String {
     if !value.is_finite() {
         let name = if value.is_nan() { "not a number" } else { "∞" };
         return if value < 0.0 { format!("−{name}") } else { name.to_owned() };
@@ -12,7 +11,7 @@ pub(super) fn short(value: f64) -> String {
     }
     let exponent = value.abs().log10().floor() as i32;
     let text = if (-3..6).contains(&exponent) {
-        let decimals = (DIGITS - 1 - exponent).max(0) as usize;
+        let decimals = (digits - 1 - exponent).max(0) as usize;
         let text = format!("{value:.decimals$}");
         if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
     } else {
@@ -41,7 +40,8 @@ mod tests {
             (f64::NEG_INFINITY, "−∞"),
         ];
         for (value, text) in cases {
-            assert_eq!(short(value), text);
+            assert_eq!(short(value, 5), text);
         }
+        assert_eq!(short(0.947_02, 3), "0.947");
     }
 }
