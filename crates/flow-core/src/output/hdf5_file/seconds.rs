@@ -27,7 +27,7 @@ pub(super) fn write(file: &File, seconds: &Seconds, terms: &[String]) -> Result<
     Ok(())
 }
 
-/// Reads them back; all are zero in a file of a version that did not measure them.
+/// Reads them back; all are zero in a file that does not have them, because nothing was measured.
 pub(super) fn read(file: &File, terms: &[String]) -> Result<Seconds, (String, Error)> {
     if !file.link_exists(GROUP) {
         return Ok(Seconds::default());

@@ -49,8 +49,10 @@ fn encode(record: &Record, output: impl FnOnce() -> f64) -> Result<Vec<u8>, Stor
     write_fields(&file, record, [&frame, &node, &component])?;
     write_steps(&file, record)?;
     provenance::write(&file, record)?;
-    let seconds = Seconds { output: output(), ..record.seconds.clone() };
-    seconds::write(&file, &seconds, &record.energy_terms)?;
+    if record.seconds != Seconds::default() {
+        let seconds = Seconds { output: output(), ..record.seconds.clone() };
+        seconds::write(&file, &seconds, &record.energy_terms)?;
+    }
     hdf5_image::file_image(&file).map_err(building("the image of the file"))
 }
 
@@ -153,6 +155,9 @@ fn check_rectangular(record: &Record) -> Result<(), StorageError> {
         for entry in NODAL_FIELDS {
             check(entry.name, index, (entry.get)(frame).len(), n)?;
         }
+    }
+    if record.seconds != Seconds::default() {
+        check("seconds/evaluations", 0, record.seconds.evaluations.terms.len(), record.energy_terms.len())?;
     }
     let steps = record.steps.time.len();
     for (index, entry) in STEP_VALUES.iter().enumerate() {
