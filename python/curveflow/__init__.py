@@ -48,6 +48,7 @@ from .running import Progress, run
 from .scene import Scene, scenes
 from .simulation import Simulation, State
 from .system import System
+from .why_slow import WhySlow
 
 __all__ = [
     "Accuracy",
@@ -88,6 +89,7 @@ __all__ = [
     "Tradeoff",
     "TradeoffError",
     "Trillium",
+    "WhySlow",
     "open",
     "run",
     "scenes",

@@ -3,8 +3,9 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
-use curveflow_tests::{run, scene, shipped};
+use curveflow_tests::{run, shipped};
 use flow_core::run::tradeoff::{Ladder, LadderObserver, Leg, RunError, TradeoffError, tradeoff};
+use flow_core::run::scene::Nodes;
 use flow_core::run::{Frame, Observer, Progress, Quiet};
 
 /// True relative errors of length, curvature and energy of a circle under bending: R(t) = (1 + 2t)^{1/4}.
@@ -74,12 +75,12 @@ fn more_nodes_in_the_reference_measure_the_error_of_space() {
 }
 
 #[test]
-fn automatic_nodes_are_measured_against_twice_as_many() {
+fn automatic_nodes_are_measured_against_more() {
     let automatic = shipped("length_penalty", &[("accuracy.nodes", "auto")]);
     let measured = tradeoff(&automatic, &Ladder::new(&[1e-3, 1e-6], None).unwrap(), &mut Quiet).unwrap();
     assert!(measured.includes_space());
-    let most = measured.rungs().map(|(_, rung)| rung.nodes).max().unwrap();
-    assert_eq!(measured.reference.nodes, 2 * most);
+    let nodes: Vec<usize> = measured.rungs().map(|(_, rung)| rung.nodes).collect();
+    assert!(nodes[0] < nodes[1] && nodes[1] < measured.reference.nodes, "{nodes:?}");
 }
 
 #[test]
@@ -120,7 +121,7 @@ fn an_interrupted_ladder_keeps_the_rungs_that_are_complete() {
         observer.legs,
         [
             Leg::Scout { tolerance: 1e-4 },
-            Leg::Reference { tolerance: 1e-6, nodes: 64 },
+            Leg::Reference { tolerance: 1e-6, nodes: Nodes::Count(64) },
             Leg::Rung { tolerance: 1e-2, number: 1, count: 3 },
             Leg::Rung { tolerance: 1e-3, number: 2, count: 3 },
         ]
@@ -137,18 +138,6 @@ fn an_interrupted_ladder_keeps_the_rungs_that_are_complete() {
 
 #[test]
 fn what_fails_is_named() {
-    // The nodes that a loose tolerance gives these lobes do not close them.
-    let lobes = scene(
-        "
-        curve = { shape = 'polar', r = '1 + 0.2*cos(20*phi) + 0.1*cos(phi)' }
-        energy.bending.rigidity = 1.0
-        time = { end = 1e-8 }
-        accuracy.tolerance = 1e-3
-        ",
-    );
-    let measured = tradeoff(&lobes, &Ladder::new(&[1e-1, 1e-3], None).unwrap(), &mut Quiet).unwrap();
-    assert!(matches!(measured.rows[0].outcome, Err(RunError::Setup(_))), "{:?}", measured.rows);
-    assert!(measured.rows[1].outcome.is_ok(), "{:?}", measured.rows);
     let short = shipped("circle", &[("time.max_steps", "20")]);
     let error = tradeoff(&short, &Ladder::new(&[1e-3], None).unwrap(), &mut Quiet);
     assert!(matches!(error, Err(TradeoffError::Scout { .. })), "{error:?}");

@@ -20,6 +20,11 @@ fn scenes() -> Vec<Scene> {
     vec![
         shipped("three_fold", &[("accuracy.nodes", "128"), ("time.end", "0.05")]),
         shipped("length_penalty", &[]),
+        shipped("three_fold", &[("accuracy.nodes", "auto"), ("time.end", "0.01")]),
+        shipped(
+            "three_fold_sharp",
+            &[("accuracy.nodes", "auto"), ("flow.gauge", "graded"), ("time.end", "0.002")],
+        ),
         shipped("length_penalty", &[("flow.switch", SWITCHES)]),
         shipped(
             "three_fold",

@@ -10,6 +10,7 @@ mod memory;
 mod newton;
 mod rest;
 mod statistics;
+mod stopwatch;
 
 pub use adaptive::{Adaptive, AdaptiveOptions, IntegrationError, StepReport};
 pub use bdf::Bdf;
@@ -21,6 +22,7 @@ pub use memory::Memory;
 pub use newton::{Factorisation, NewtonKrylov, NewtonOutcome, Stage};
 pub use rest::Rest;
 pub use statistics::{Counters, Rejections};
+pub use stopwatch::{Activity, Clocked, Stopwatch};
 
 /// A system dy/dt = f(y) with an implicit operator I − γJ, J ≈ f′.
 pub trait Problem {

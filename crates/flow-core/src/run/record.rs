@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::seconds::Seconds;
 use crate::integrator::{Counters, Rejections};
 
 /// One saved state. Fields hold one value per node, `n` of them.
@@ -146,6 +147,8 @@ pub struct Record {
     pub steps: StepLog,
     /// Work done and time spent.
     pub counters: Counters,
+    /// Where the time went.
+    pub seconds: Seconds,
     /// Why the run stopped.
     pub stop_reason: StopReason,
 }

@@ -24,7 +24,9 @@ impl Simulation {
             Look::Unresolved => false,
         };
         self.record.counters.unresolved_steps += u64::from(!served);
-        self.record.counters.integration_seconds += clock.elapsed().as_secs_f64();
+        let seconds = clock.elapsed().as_secs_f64();
+        self.record.counters.integration_seconds += seconds;
+        self.clocks.remaps += seconds;
     }
 
     /// Carries the past states over to the nodes of `plan` and goes on with the same order and step size; none if a state cannot

@@ -1,9 +1,13 @@
 //! What a simulation must know to go on, in another process, as if it had never stopped.
 
+use std::time::Instant;
+
 use serde::{Deserialize, Serialize};
 
 use super::Simulation;
-use crate::integrator::{self, Adaptive, AdaptiveOptions, Bdf, Counters, Problem, Rest, Stepper};
+use super::clocks::Clocks;
+use crate::integrator::{self, Adaptive, AdaptiveOptions, Bdf, Counters, Problem, Rest, Stepper, Stopwatch};
+use crate::run::adaptation::Adaptation;
 use crate::run::equilibrium::Equilibrium;
 use crate::run::frames::Start;
 use crate::run::membrane::MembraneMemory;
@@ -119,9 +123,11 @@ impl Simulation {
         steps: StepLog,
     ) -> Result<Self, ResumeError> {
         let foreign = |item| ResumeError::Foreign { item };
+        let clock = Instant::now();
         let mut simulation = Self::new(scene)?;
         let turning_number = simulation.membrane.turning_number();
         simulation.gauges.skip(memory.switches);
+        simulation.adaptation = Adaptation::of(simulation.gauges.scene());
         if memory.counters.remaps > 0 {
             let built = simulation.gauges.build(&memory.mesh, turning_number)?;
             (simulation.membrane, simulation.diagnostics) = built;
@@ -161,6 +167,7 @@ impl Simulation {
         simulation.scratch = vec![0.0; simulation.membrane.size()];
         (simulation.mesh, simulation.remapped_at) = (memory.mesh, memory.remapped_at);
         simulation.switches = memory.switches;
+        simulation.clocks = Clocks::started(clock, 0.0, Stopwatch::default());
         Ok(simulation)
     }
 }

@@ -2,8 +2,11 @@
 
 use std::time::Instant;
 
+use super::clocks::Clocks;
 use super::{ENERGY_TOLERANCE_SHARE, Simulation};
-use crate::integrator::{Adaptive, AdaptiveOptions, Bdf, Counters, Finish, INTEGRALS, Problem};
+use crate::integrator::{
+    Adaptive, AdaptiveOptions, Bdf, Clocked, Counters, Finish, INTEGRALS, Problem, Stopwatch,
+};
 use crate::run::adaptation::Adaptation;
 use crate::run::equilibrium::Equilibrium;
 use crate::run::frames::{Start, frame};
@@ -11,6 +14,7 @@ use crate::run::membrane::Membrane;
 use crate::run::record::{Record, StepLog, StopReason};
 use crate::run::scene::Scene;
 use crate::run::schedule::frame_times;
+use crate::run::seconds::Seconds;
 use crate::run::setup::Setup;
 use crate::run::setup_error::SetupError;
 
@@ -27,6 +31,7 @@ impl Simulation {
     /// # Errors
     /// [`SetupError`] if the scene makes no initial state.
     pub fn new(scene: &Scene) -> Result<Self, SetupError> {
+        let clock = Instant::now();
         let Setup { mut membrane, mut state, placement, mut diagnostics, closure_defect, gauges, mesh, adaptation } =
             Setup::new(scene)?;
         let finish = membrane.finish(0.0, &mut state);
@@ -48,10 +53,16 @@ impl Simulation {
         );
         let allowed_crossings = first.crossings as usize;
         let mut counters = Counters::default();
-        let clock = Instant::now();
-        let stepper =
-            Bdf::new(&mut membrane, &state, integral_rates, scene.accuracy.tolerance, &mut counters);
-        counters.integration_seconds = clock.elapsed().as_secs_f64();
+        let mut watch = Stopwatch::default();
+        let first_rate = Instant::now();
+        let stepper = Bdf::new(
+            &mut Clocked::new(&mut membrane, &mut watch),
+            &state,
+            integral_rates,
+            scene.accuracy.tolerance,
+            &mut counters,
+        );
+        counters.integration_seconds = first_rate.elapsed().as_secs_f64();
         let end = scene.time.end;
         let options = AdaptiveOptions {
             end: end.min(gauges.next_time()),
@@ -73,6 +84,7 @@ impl Simulation {
             frames: vec![first],
             steps: StepLog::with_room(STEP_ROOM),
             counters,
+            seconds: Seconds::default(),
             stop_reason: StopReason::EndTime,
         };
         Ok(Self {
@@ -98,6 +110,7 @@ impl Simulation {
             membrane,
             diagnostics,
             record,
+            clocks: Clocks::started(clock, counters.integration_seconds, watch),
             stopped: None,
         })
     }

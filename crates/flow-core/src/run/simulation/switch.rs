@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use super::Simulation;
 use crate::integrator::{Adaptive, AdaptiveOptions, Bdf, Finish, Integrals, Problem, StepReport, Stepper};
+use crate::run::adaptation::Adaptation;
 use crate::run::gauges::Switched;
 use crate::run::mesh::Mesh;
 use crate::run::record::StopReason;
@@ -32,12 +33,15 @@ impl Simulation {
         counters.remaps += 1;
         self.switches += 1;
         self.mesh = Mesh::of(self.gauges.scene(), self.membrane.layout().nodes());
+        self.adaptation = Adaptation::of(self.gauges.scene());
         self.remapped_at = counters.steps;
         let integrals = Integrals::new(report.time, self.integration.integrals(), integral_rates);
         let stepper =
             Bdf::starting(&mut self.membrane, &self.scratch, integrals, self.tolerance, &mut counters);
         let options = AdaptiveOptions { end: self.next_stop(), ..*self.integration.options() };
         self.integration = Adaptive::new(stepper, options, energy, counters);
-        self.record.counters.integration_seconds += clock.elapsed().as_secs_f64();
+        let seconds = clock.elapsed().as_secs_f64();
+        self.record.counters.integration_seconds += seconds;
+        self.clocks.remaps += seconds;
     }
 }

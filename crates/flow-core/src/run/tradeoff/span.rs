@@ -56,6 +56,7 @@ pub(super) fn halfway(record: &Record) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::super::super::record::{Frame, StepLog};
+    use super::super::super::seconds::Seconds;
     use super::*;
     use crate::integrator::Counters;
 
@@ -76,6 +77,7 @@ mod tests {
                 ..StepLog::default()
             },
             counters: Counters::default(),
+            seconds: Seconds::default(),
             stop_reason: StopReason::EndTime,
         }
     }
