@@ -180,7 +180,7 @@ def tradeoff(
         scene: what to run.
         tolerances: the ladder, in any order, each from 1e-10 to 0.1; 1e-2, 1e-3 … 1e-8 if none is given.
         reference_nodes: number of nodes of the reference. Without, it has those of the scene, and the errors are those
-            of the time integration alone; or, where the scene says ``"auto"``, twice as many as the tightest run.
+            of the time integration alone; or, where the scene says ``"auto"``, as many as its tolerance needs.
         progress: show where the runs stand on standard error, as :func:`run` does.
 
     Raises:

@@ -185,8 +185,8 @@ class Result:
         - ``energy_density_bending``, …: the same of each local term (``energy-densities``).
         - ``normal_velocity_bending``, …: what each term adds to the normal velocity (``normal-velocities``).
 
-        ``tangential_velocity`` and ``membrane_flux`` are at the nodes if ``accuracy.derivative`` is ``"fourier"``, the
-        default, else halfway between each node and the next.
+        ``tangential_velocity`` and ``membrane_flux`` are at the nodes if ``accuracy.derivative`` is ``"fourier"``, or the
+        program chooses the nodes, else halfway between each node and the next.
         """
         names = self._record.fields
         return MappingProxyType({name: self._record.requested_field(i) for i, name in enumerate(names)})

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
-use curveflow_tests::{run, shipped};
+use curveflow_tests::{run, scene, shipped};
 use flow_core::run::tradeoff::{Ladder, LadderObserver, Leg, RunError, TradeoffError, tradeoff};
 use flow_core::run::scene::Nodes;
 use flow_core::run::{Frame, Observer, Progress, Quiet};

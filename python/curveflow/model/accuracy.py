@@ -16,7 +16,8 @@ class Accuracy(Table):
     tolerance: float = default("accuracy", "tolerance")
     """The relative error asked for, in time and in space together: in [1e-11, 1e-1]."""
     nodes: int | Literal["auto"] = default("accuracy", "nodes")
-    """Number of nodes on the curve, 8 to 65536, or ``auto``: as many as the tolerance needs."""
+    """Number of nodes on the curve, 8 to 65536, or ``auto``: as many as the tolerance needs,
+    while the run goes on (THEORY.md, D12)."""
     derivative: Literal["fourier", "central-2", "central-4", "central-6", "central-8"] = default(
         "accuracy", "derivative"
     )

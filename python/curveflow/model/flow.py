@@ -35,7 +35,8 @@ class Flow(Table):
     """``scaled-arc-length``: equidistant nodes (F1); ``graded``: node distances proportional to ``grading`` (D8);
     ``co-moving``: nodes are material points, and the metric is a field (F19)."""
     grading: Formula | None = None
-    """The metric of the graded gauge, and the first one of the co-moving gauge, a positive expression of ``s`` up to a factor: nodes crowd where it is small."""
+    """The metric of the graded gauge, and the first one of the co-moving gauge, a positive expression of ``s`` up to a factor: nodes
+    crowd where it is small. Without one the nodes of the graded gauge follow the solution (D13)."""
     stop_on_contact: bool = default("flow", "stop_on_contact")
     """Whether the run stops once the curve crosses itself more often than at the start (G7)."""
     switch: Sequence[Switch] = ()

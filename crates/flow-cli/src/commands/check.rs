@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use flow_core::run::scene::Nodes;
 use flow_core::run::{Prediction, predict};
 
 use super::scene_args::SceneArgs;
@@ -22,11 +23,12 @@ pub struct Args {
 pub fn execute(args: &Args) -> Result<(), CliError> {
     let scene = args.scene.read()?;
     let clock = Instant::now();
-    let Prediction { nodes, unknowns, memory_bytes, file_bytes, seconds_per_step, steps } =
+    let Prediction { nodes, most_nodes, unknowns, memory_bytes, file_bytes, seconds_per_step, steps } =
         predict(&scene).map_err(|error| CliError::InvalidScene { source: Box::new(error) })?;
     if args.json {
         let value = serde_json::json!({
             "nodes": nodes,
+            "most_nodes": most_nodes,
             "unknowns": unknowns,
             "memory_bytes": memory_bytes,
             "file_bytes": file_bytes,
@@ -38,8 +40,13 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     }
     let mega = |bytes: f64| bytes / 1e6;
     print::data(&format!(
-        "the scene is valid\nnodes     {nodes}\nunknowns  {unknowns}\nmemory    {:.1} MB\nfile      at most {:.1} MB\nsteps     \
+        "the scene is valid\nnodes     {}\nunknowns  {unknowns}\nmemory    {:.1} MB\nfile      at most {:.1} MB\nsteps     \
          about {steps:.0} (rough; fewer if the flow comes to rest)\ntime      about {:.2} s",
+        if scene.accuracy.nodes == Nodes::Auto {
+            format!("{nodes} at the start, as many as it needs on the way (about {most_nodes} at most)")
+        } else {
+            nodes.to_string()
+        },
         mega(memory_bytes),
         mega(file_bytes),
         seconds_per_step * steps

@@ -1,15 +1,18 @@
 //! What a run will take: nodes, memory, time; measured on a few trial steps.
 
 use super::observer::Quiet;
-use super::scene::{Frames, Scene};
+use super::resolution::{fronts, size_above};
+use super::scene::{Frames, Gauge, Nodes, Scene};
 use super::setup_error::SetupError;
 use super::simulation::Simulation;
 
 /// Prediction of a run. Steps and time are rough: within a factor of three for the shipped scenes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prediction {
-    /// Number of nodes.
+    /// Number of nodes at the start.
     pub nodes: usize,
+    /// Most nodes expected, where the program chooses them: those that the fronts of the agents need at equal distances.
+    pub most_nodes: usize,
     /// Length of the state vector.
     pub unknowns: usize,
     /// Memory of the solver and of all frames.
@@ -47,15 +50,25 @@ pub fn predict(scene: &Scene) -> Result<Prediction, SetupError> {
         + 1.0;
     // Curvature, metric, velocity, two positions, the densities and what the scene asks for.
     let fields = 5 + layout.densities() + record.fields.len();
-    let file_bytes = 8.0 * frames * (layout.nodes() * fields) as f64;
+    let most_nodes = most_nodes(scene, layout.nodes(), record.frames[0].length);
+    let file_bytes = 8.0 * frames * (most_nodes * fields) as f64;
     let decades = (scene.time.end / time).log10().max(0.0);
     let finer = (1e-5 / scene.accuracy.tolerance).powf(0.2);
     Ok(Prediction {
         nodes: layout.nodes(),
+        most_nodes,
         unknowns: layout.len(),
         memory_bytes: 8.0 * SOLVER_VECTORS * layout.len() as f64 + file_bytes,
         file_bytes,
         seconds_per_step: record.counters.integration_seconds / steps_taken,
         steps: steps_taken + STEPS_PER_DECADE * decades * finer,
     })
+}
+
+fn most_nodes(scene: &Scene, nodes: usize, initial_length: f64) -> usize {
+    let equidistant = scene.flow.gauge == Gauge::ScaledArcLength;
+    match scene.accuracy.nodes {
+        Nodes::Auto if equidistant => nodes.max(size_above(fronts(scene, initial_length))),
+        _ => nodes,
+    }
 }

@@ -22,8 +22,8 @@ pub struct Args {
     /// Tolerances to run, in any order [default: 1e-2, 1e-3 … 1e-8].
     #[arg(long, value_name = "1e-3,1e-5,…", value_delimiter = ',')]
     pub tolerances: Option<Vec<f64>>,
-    /// Number of nodes of the reference, so that the error of the nodes is measured too [default: those of the scene; twice
-    /// as many as the tightest run where they are "auto"].
+    /// Number of nodes of the reference, so that the error of the nodes is measured too [default: those of the scene; as
+    /// many as its tolerance needs where they are "auto"].
     #[arg(long, value_name = "N")]
     pub reference_nodes: Option<usize>,
     /// Name the quickest run with at most this error.

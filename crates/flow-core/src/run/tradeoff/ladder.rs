@@ -53,8 +53,8 @@ impl Default for Ladder {
 
 impl Ladder {
     /// A ladder of `tolerances` in any order. With `reference_nodes` the reference has so many nodes. Without, it has those of
-    /// the scene, and the errors are those of the time integration alone; or, where the scene says `"auto"`, twice as many as
-    /// the tightest rung.
+    /// the scene, and the errors are those of the time integration alone; or, where the scene says `"auto"`, as many as its
+    /// own tolerance needs.
     ///
     /// # Errors
     /// [`LadderError`] if a tolerance is out of range or given twice, or the number of nodes out of range.
