@@ -93,7 +93,11 @@ fn sharper_fronts_ask_for_few_nodes_more() {
         assert_eq!(record.stop_reason, StopReason::EndTime, "{epsilon}");
         check_laws(&record, &format!("epsilon = {epsilon}"));
         let last = *record.steps.nodes.last().expect("steps");
-        println!("epsilon = {epsilon}: {:?} nodes, {last} at the end, {} steps", extremes(&record), record.counters.steps);
+        println!(
+            "epsilon = {epsilon}: {:?} nodes, {last} at the end, {} steps",
+            extremes(&record),
+            record.counters.steps
+        );
         most.push(last);
     }
     let (least, greatest) = (most.iter().min().expect("some"), most.iter().max().expect("some"));

@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
 use curveflow_tests::{run, scene, shipped};
-use flow_core::run::tradeoff::{Ladder, LadderObserver, Leg, RunError, TradeoffError, tradeoff};
 use flow_core::run::scene::Nodes;
+use flow_core::run::tradeoff::{Ladder, LadderObserver, Leg, RunError, TradeoffError, tradeoff};
 use flow_core::run::{Frame, Observer, Progress, Quiet};
 
 /// True relative errors of length, curvature and energy of a circle under bending: R(t) = (1 + 2t)^{1/4}.

@@ -72,9 +72,7 @@ impl From<TradeoffError> for CliError {
     fn from(error: TradeoffError) -> Self {
         match error {
             TradeoffError::Setup(error) => Self::InvalidScene { source: Box::new(error) },
-            TradeoffError::FewerNodes { .. } => {
-                Self::Usage { message: error.to_string() }
-            }
+            TradeoffError::FewerNodes { .. } => Self::Usage { message: error.to_string() },
             TradeoffError::Interrupted => Self::LadderStopped { measured: 0 },
             other => Self::Unmeasured(other),
         }

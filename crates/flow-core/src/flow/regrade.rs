@@ -60,17 +60,13 @@ pub struct Regrading {
 impl Regrading {
     /// From the nodes of the state that `from` evaluated last to those of the layout `to`, which may be graded.
     #[must_use]
-    pub fn new(
-        from: &GradientFlow,
-        to: Layout,
-        grading: Option<Arc<Grading>>,
-        turning_number: i32,
-    ) -> Self {
+    pub fn new(from: &GradientFlow, to: Layout, grading: Option<Arc<Grading>>, turning_number: i32) -> Self {
         let nodes = to.nodes();
         let uniform = || (0..nodes).map(|i| i as f64 / nodes as f64).collect();
         let fractions: Vec<f64> = grading.as_ref().map_or_else(uniform, |grading| grading.fractions());
         let old = from.current().grading();
-        let parameters = old.map_or_else(|| fractions.clone(), |old| parameters_of_fractions(old, &fractions));
+        let parameters =
+            old.map_or_else(|| fractions.clone(), |old| parameters_of_fractions(old, &fractions));
         Self {
             points: ScatteredPoints::new(from.layout().nodes(), &parameters),
             grid: PeriodicGrid::new(nodes),

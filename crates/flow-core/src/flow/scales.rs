@@ -38,7 +38,12 @@ pub fn local_wave_numbers(flow: &mut GradientFlow) -> Vec<f64> {
 }
 
 /// Nodal values of d/dx = (1/w) d/ds of a spectrum.
-fn differentiate(grid: &mut PeriodicGrid, spectrum: &mut [Complex64], inverse: Option<&[f64]>, out: &mut [f64]) {
+fn differentiate(
+    grid: &mut PeriodicGrid,
+    spectrum: &mut [Complex64],
+    inverse: Option<&[f64]>,
+    out: &mut [f64],
+) {
     for (mode, value) in spectrum.iter_mut().enumerate() {
         *value *= Complex64::new(0.0, grid.wave_number(mode));
     }

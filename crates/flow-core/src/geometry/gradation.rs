@@ -33,7 +33,8 @@ pub fn follow_scales(fractions: &[f64], wave_numbers: &[f64], nodes: usize) -> V
 /// The largest spacing below `spacing` that grows at most at the rate [`GROWTH`].
 fn limit_growth(fractions: &[f64], mut spacing: Vec<f64>) -> Vec<f64> {
     let count = spacing.len();
-    let distance = |i: usize| if i + 1 < count { fractions[i + 1] - fractions[i] } else { 1.0 - fractions[i] };
+    let distance =
+        |i: usize| if i + 1 < count { fractions[i + 1] - fractions[i] } else { 1.0 - fractions[i] };
     for i in 0..2 * count {
         let (left, right) = (i % count, (i + 1) % count);
         spacing[right] = spacing[right].min(spacing[left] + GROWTH * distance(left));
@@ -89,7 +90,8 @@ mod tests {
     fn layer(d: f64, place: f64, count: usize) -> (Vec<f64>, Vec<f64>) {
         let fractions: Vec<f64> = (0..count).map(|i| i as f64 / count as f64).collect();
         let near = |x: &f64| 1.0 / (d * ((x - place) / d).cosh().powi(2)).max(1e-300) + 6.0;
-        let waves = fractions.iter().map(|x| if (x - place).abs() < 20.0 * d { near(x).min(1.0 / d) } else { 6.0 });
+        let waves =
+            fractions.iter().map(|x| if (x - place).abs() < 20.0 * d { near(x).min(1.0 / d) } else { 6.0 });
         (fractions.clone(), waves.collect())
     }
 
@@ -98,8 +100,13 @@ mod tests {
         for (d, place) in [(0.02, 0.5), (0.002, 0.31)] {
             let (fractions, waves) = layer(d, place, 4096);
             let grading = Grading::new(&follow_scales(&fractions, &waves, 128)).unwrap();
-            let densest = (0..128).min_by(|a, b| grading.weight()[*a].total_cmp(&grading.weight()[*b])).unwrap();
-            assert!((grading.fractions()[densest] - place).abs() < d, "{d}: {}", grading.fractions()[densest]);
+            let densest =
+                (0..128).min_by(|a, b| grading.weight()[*a].total_cmp(&grading.weight()[*b])).unwrap();
+            assert!(
+                (grading.fractions()[densest] - place).abs() < d,
+                "{d}: {}",
+                grading.fractions()[densest]
+            );
         }
     }
 

@@ -73,7 +73,10 @@ impl ScatteredPoints {
         // ∫ e^{β(√(1−z²) − 1)} cos kz dz with z = sin t, over half of the kernel, twice.
         let points: [(f64, f64); QUADRATURE] = std::array::from_fn(|i| {
             let t = (i as f64 + 0.5) / QUADRATURE as f64 * FRAC_PI_2;
-            (t.sin(), WIDTH as f64 * FRAC_PI_2 / QUADRATURE as f64 * t.cos() * (SHAPE * (t.cos() - 1.0)).exp())
+            (
+                t.sin(),
+                WIDTH as f64 * FRAC_PI_2 / QUADRATURE as f64 * t.cos() * (SHAPE * (t.cos() - 1.0)).exp(),
+            )
         });
         let coefficient = |mode: usize| -> f64 {
             let wave = PI * WIDTH as f64 * mode as f64 / count;

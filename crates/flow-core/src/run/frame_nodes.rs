@@ -11,7 +11,8 @@ impl Frame {
     #[must_use]
     pub fn is_consistent(&self) -> bool {
         let nodes = self.curvature.len();
-        let fields = [&self.metric, &self.normal_velocity].into_iter().chain(&self.density).chain(&self.fields);
+        let fields =
+            [&self.metric, &self.normal_velocity].into_iter().chain(&self.density).chain(&self.fields);
         self.position.len() == nodes && fields.into_iter().all(|field| field.len() == nodes)
     }
 

@@ -33,7 +33,8 @@ pub fn unresolved(layout: Layout, state: &[f64], nodes: usize, family: Derivativ
         let all = dot(spectrum, spectrum).max(floor);
         let missed = |(mode, pair): (usize, &[f64])| {
             let mode = mode as f64;
-            let error = if mode >= first_empty { 1.0 } else { family.symbol_error(TAU * mode / nodes as f64) };
+            let error =
+                if mode >= first_empty { 1.0 } else { family.symbol_error(TAU * mode / nodes as f64) };
             error * error * dot(pair, pair)
         };
         let missed: f64 = spectrum.chunks_exact(2).enumerate().map(missed).sum();

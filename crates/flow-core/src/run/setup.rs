@@ -106,7 +106,9 @@ fn start(scene: &Scene, shape: &Shape, length: f64) -> Result<Start, SetupError>
                 }
             }
             Err(error) if nodes >= MOST_FIRST_NODES => return Err(error),
-            Err(SetupError::TooFewNodes { .. } | SetupError::Grading(GradingError::NotResolved { .. })) => nodes *= 2,
+            Err(SetupError::TooFewNodes { .. } | SetupError::Grading(GradingError::NotResolved { .. })) => {
+                nodes *= 2
+            }
             Err(error) => return Err(error),
         }
     }

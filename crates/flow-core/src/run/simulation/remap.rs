@@ -20,7 +20,9 @@ impl Simulation {
         let state = self.integration.stepper().state();
         let served = match adaptation.look(&mut self.membrane, state, &self.mesh, age) {
             Look::Serve => true,
-            Look::Change(plan) => self.remap(&plan, time, energy).is_some() || plan.mesh.nodes < self.mesh.nodes,
+            Look::Change(plan) => {
+                self.remap(&plan, time, energy).is_some() || plan.mesh.nodes < self.mesh.nodes
+            }
             Look::Unresolved => false,
         };
         self.record.counters.unresolved_steps += u64::from(!served);

@@ -7,22 +7,16 @@ use super::{ENERGY_TOLERANCE_SHARE, Simulation};
 use crate::integrator::{
     Adaptive, AdaptiveOptions, Bdf, Clocked, Counters, Finish, INTEGRALS, Problem, Stopwatch,
 };
-use crate::run::adaptation::Adaptation;
 use crate::run::equilibrium::Equilibrium;
 use crate::run::frames::{Start, frame};
 use crate::run::membrane::Membrane;
 use crate::run::record::{Record, StepLog, StopReason};
-use crate::run::scene::Scene;
+use crate::run::scene::{Gauge, Scene};
 use crate::run::schedule::frame_times;
 use crate::run::seconds::Seconds;
 use crate::run::setup::Setup;
 use crate::run::setup_error::SetupError;
 
-/// Part of the tolerance by which the energy of a flow at rest may still fall.
-const REST_SHARE: f64 = 0.01;
-/// The same on nodes that follow the solution: their crowds hold it in place, and what is not resolved lets it slide off them,
-/// which would go on for ever.
-const REST_SHARE_OF_CROWDS: f64 = 0.1;
 /// Steps that are logged without allocating; beyond, the room doubles now and then.
 const STEP_ROOM: usize = 4096;
 impl Simulation {
@@ -32,8 +26,16 @@ impl Simulation {
     /// [`SetupError`] if the scene makes no initial state.
     pub fn new(scene: &Scene) -> Result<Self, SetupError> {
         let clock = Instant::now();
-        let Setup { mut membrane, mut state, placement, mut diagnostics, closure_defect, gauges, mesh, adaptation } =
-            Setup::new(scene)?;
+        let Setup {
+            mut membrane,
+            mut state,
+            placement,
+            mut diagnostics,
+            closure_defect,
+            gauges,
+            mesh,
+            adaptation,
+        } = Setup::new(scene)?;
         let finish = membrane.finish(0.0, &mut state);
         let Finish::Good { energy, dissipation, integral_rates } = finish else {
             return Err(not_finite(&mut membrane, &state));
@@ -69,9 +71,7 @@ impl Simulation {
             most_steps: scene.time.max_steps.unwrap_or(u64::MAX),
             energy_tolerance: ENERGY_TOLERANCE_SHARE * scene.accuracy.tolerance,
         };
-        let grades = adaptation.as_ref().is_some_and(Adaptation::grades);
-        let share = if grades { REST_SHARE_OF_CROWDS } else { REST_SHARE };
-        let rest = scene.time.equilibrium_tolerance.unwrap_or(share * scene.accuracy.tolerance);
+        let rest = rest_tolerance(scene);
         let frame_times = frame_times(&scene.output, end);
         let record = Record {
             title: scene.title.clone(),
@@ -132,4 +132,21 @@ fn not_finite(membrane: &mut Membrane, state: &[f64]) -> SetupError {
         low: curvature.iter().copied().fold(f64::INFINITY, f64::min),
         high: curvature.iter().copied().fold(f64::NEG_INFINITY, f64::max),
     }
+}
+
+/// Part of the energy that a flow at rest may still lose.
+///
+/// Co-moving nodes go on to creep along the curve at the rate of the discretisation's error, and a solution slides off the nodes
+/// that crowd for it at that rate: their rest is asked for less exactly.
+fn rest_tolerance(scene: &Scene) -> f64 {
+    let flow = &scene.flow;
+    let switched = flow.switch.iter().map(|switch| (switch.gauge, &switch.grading));
+    let mut gauges = switched.chain([(flow.gauge, &flow.grading)]);
+    let slides = gauges.any(|(gauge, grading)| match gauge {
+        Gauge::CoMoving => true,
+        Gauge::Graded => grading.is_none(),
+        Gauge::ScaledArcLength => false,
+    });
+    let share = if slides { 0.1 } else { 0.01 };
+    scene.time.equilibrium_tolerance.unwrap_or(share * scene.accuracy.tolerance)
 }

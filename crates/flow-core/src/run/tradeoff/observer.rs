@@ -1,7 +1,7 @@
 //! Who watches a ladder: told before every run, then after every step of it.
 
-use crate::run::scene::Nodes;
 use super::super::observer::{Observer, Quiet};
+use crate::run::scene::Nodes;
 
 /// A run of the ladder that is about to start.
 #[derive(Clone, Copy, Debug, PartialEq)]
