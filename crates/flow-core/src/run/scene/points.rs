@@ -40,7 +40,11 @@ pub(super) fn read(path: &Path) -> Result<Vec<[f64; 2]>, PointsError> {
     parse(&text)
 }
 
-fn parse(text: &str) -> Result<Vec<[f64; 2]>, PointsError> {
+/// Points from the text of such a file: `x y` or `x, y` on each line; `#` starts a comment.
+///
+/// # Errors
+/// [`PointsError::NotAPoint`] for the first line that does not hold two finite numbers.
+pub fn parse(text: &str) -> Result<Vec<[f64; 2]>, PointsError> {
     let content = |line: &str| line.split('#').next().unwrap_or("").trim().len();
     let lines = text.trim_start_matches('\u{feff}').lines().enumerate().filter(|(_, line)| content(line) > 0);
     let parsed = lines.map(|(index, line)| {

@@ -1,0 +1,49 @@
+//! The seeds of the fuzz targets, and what fuzzing has found, through the same functions.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use curveflow_tests::hostile;
+
+/// The files of a folder of the repository, each with the name of its path.
+fn files(folder: &str) -> Vec<(PathBuf, Vec<u8>)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(folder);
+    let entries = fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).filter(|path| path.is_file()).collect();
+    paths.sort();
+    paths.into_iter().map(|path| (path.clone(), fs::read(path).unwrap())).collect()
+}
+
+fn replay(folders: &[&str], target: fn(&[u8])) {
+    let files: Vec<_> = folders.iter().flat_map(|folder| files(folder)).collect();
+    assert!(!files.is_empty());
+    for (path, bytes) in files {
+        println!("{}", path.display());
+        target(&bytes);
+    }
+}
+
+#[test]
+fn scenes() {
+    replay(&["fuzz/seeds/scene", "scenes"], hostile::scene);
+}
+
+#[test]
+fn overrides() {
+    replay(&["fuzz/seeds/overrides"], hostile::overrides);
+}
+
+#[test]
+fn expressions() {
+    replay(&["fuzz/seeds/expression"], hostile::expression);
+}
+
+#[test]
+fn curve_points() {
+    replay(&["fuzz/seeds/curve_points"], hostile::curve_points);
+}
+
+#[test]
+fn checkpoints() {
+    replay(&["fuzz/seeds/checkpoint"], hostile::checkpoint);
+}

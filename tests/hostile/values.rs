@@ -1,0 +1,126 @@
+//! Every value of a scene in turn becomes one that nobody should write: the scene is refused with a message, or it sets
+//! up and runs, or fails with a message. Nothing panics, and nothing takes all memory.
+
+mod scenes;
+
+use std::collections::BTreeSet;
+use std::panic::catch_unwind;
+
+use curveflow_tests::hostile::short_run;
+use flow_core::run::Scene;
+use serde_json::Value as Json;
+use toml::Value;
+
+/// As TOML.
+const NUMBERS: [&str; 24] = [
+    "nan", "inf", "-inf", "0", "0.0", "-0.0", "1", "-1", "5e-324", "-5e-324", "1e-308", "1e-162", "1e-16", "1e16",
+    "1e154", "1e308", "-1e308", "1e-400", "1e400", "9223372036854775807", "-9223372036854775808",
+    "99999999999999999999999999", "0xffffffffffffffffff", "2147483648",
+];
+const OTHERS: [&str; 9] =
+    ["''", "' '", "'\u{202e}κ\u{0301}💧'", "'\\u0000'", "true", "[]", "{}", "[[[[[[]]]]]]", "1979-05-27T07:32:00Z"];
+const FORMULAS: [&str; 14] = [
+    "'1/0'",
+    "'0/0'",
+    "'1e308*1e308'",
+    "'-1'",
+    "'1e-308'",
+    "'1e308'",
+    "'ln(-1)'",
+    "'exp(1000)'",
+    "'sqrt(s - 0.5)'",
+    "'1/(rho - rho)'",
+    "'tan(phi)^99'",
+    "'exp(exp(exp(kappa)))'",
+    "'abs(q)^0.5'",
+    "'s^(1/3)'",
+];
+
+fn long() -> [String; 3] {
+    [format!("'{}'", "x".repeat(100_000)), format!("'{}1'", "1+".repeat(50_000)), format!("'{}'", "(".repeat(5_000))]
+}
+
+/// Dotted keys of all values of a table, lists by index.
+fn leaves(path: &str, value: &Value, out: &mut Vec<String>) {
+    let within = |key: &str| if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
+    match value {
+        Value::Table(table) => table.iter().for_each(|(key, value)| leaves(&within(key), value, out)),
+        Value::Array(list) if list.iter().any(Value::is_table) => {
+            list.iter().enumerate().for_each(|(k, value)| leaves(&within(&k.to_string()), value, out));
+        }
+        _ => out.push(path.to_owned()),
+    }
+}
+
+fn keys(text: &str) -> Vec<String> {
+    let table: toml::Table = toml::from_str(text).unwrap();
+    let mut keys = Vec::new();
+    leaves("", &Value::Table(table), &mut keys);
+    keys
+}
+
+/// Reads the scene with one value changed, and runs what is accepted. Returns whether it was, and whether it ran.
+fn tried(text: &str, changes: &[(String, String)]) -> [bool; 2] {
+    match Scene::parse_with(text, "scene.toml", changes) {
+        Ok(scene) => [true, short_run(scene).is_some()],
+        Err(error) => {
+            assert!(error.to_string().len() < 20_000);
+            [false; 2]
+        }
+    }
+}
+
+#[test]
+fn every_value_can_be_hostile() {
+    let long = long();
+    let values: Vec<&str> =
+        NUMBERS.into_iter().chain(OTHERS).chain(FORMULAS).chain(long.iter().map(String::as_str)).collect();
+    let [mut all, mut accepted, mut ran] = [0; 3];
+    let mut panics = Vec::new();
+    for text in scenes::ALL {
+        assert_eq!(tried(text, &[]), [true, true], "{text}");
+        for key in keys(text) {
+            for value in &values {
+                let clock = std::time::Instant::now();
+                let change = [(key.clone(), (*value).to_owned())];
+                all += 1;
+                let Ok([is_scene, is_run]) = catch_unwind(|| tried(text, &change)) else {
+                    panics.push(format!("{key} = {value:.30}"));
+                    continue;
+                };
+                if clock.elapsed().as_secs_f64() > 0.5 { println!("{key} = {value:.30}: {:?}", clock.elapsed()); }
+                accepted += usize::from(is_scene);
+                ran += usize::from(is_run);
+            }
+        }
+    }
+    println!("{all} scenes, {accepted} accepted, {ran} of them ran");
+    assert!(panics.is_empty(), "{} panics:\n{}", panics.len(), panics.join("\n"));
+    assert!(ran > 0 && accepted < all);
+}
+
+/// The scenes above name every key that there is.
+#[test]
+fn every_key_is_tried() {
+    let mut known = BTreeSet::new();
+    names(&Scene::schema(), &mut known);
+    let named: BTreeSet<String> = scenes::ALL
+        .iter()
+        .flat_map(|text| keys(text))
+        .flat_map(|key| key.split('.').map(str::to_owned).collect::<Vec<_>>())
+        .collect();
+    // A file of points has its own tests.
+    let missing: Vec<&String> = known.difference(&named).collect();
+    assert_eq!(missing, ["file"]);
+}
+
+fn names(schema: &Json, out: &mut BTreeSet<String>) {
+    if let Some(properties) = schema["properties"].as_object() {
+        out.extend(properties.keys().cloned());
+    }
+    match schema {
+        Json::Object(object) => object.values().for_each(|value| names(value, out)),
+        Json::Array(list) => list.iter().for_each(|value| names(value, out)),
+        _ => {}
+    }
+}
