@@ -20,8 +20,8 @@ pub struct AdaptiveOptions {
 pub enum IntegrationError {
     /// The step size fell to the rounding of the time.
     #[error(
-        "the step size fell to {step:.3e} at t = {time:.6e}, the rounding of the time ({rejections} attempts \
-         rejected in a row, the last because {}); the flow may end here (a curve shrinking to a point, an \
+        "the step size fell to {step:.3e} at t = {time:.6e}, the rounding of the time (attempts rejected in a row: \
+         {rejections}, the last because {}); the flow may end here (a curve shrinking to a point, an \
          ill-posed energy), or the tolerance asks for more than double precision: try a larger tolerance or \
          more nodes", reason(*.cause)
     )]
@@ -33,7 +33,7 @@ pub enum IntegrationError {
     )]
     StopTooNear { time: f64, step: f64, least: f64 },
     /// The allowed number of steps is used up.
-    #[error("{steps} steps were taken up to t = {time:.6e}, the most allowed; raise time.max_steps")]
+    #[error("time.max_steps = {steps} is used up at t = {time:.6e}; raise it, or drop the key")]
     TooManySteps { time: f64, steps: u64 },
     /// The initial state cannot be evaluated.
     #[error(

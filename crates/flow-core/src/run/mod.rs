@@ -8,6 +8,7 @@ mod frames;
 mod grading;
 mod interpolant;
 mod invariants;
+mod limits;
 mod membrane;
 mod mobilities;
 mod nodal_lines;

@@ -1,7 +1,8 @@
 //! What a run will take: nodes, memory, time; measured on a few trial steps.
 
+use super::limits::frame_bytes;
 use super::observer::Quiet;
-use super::scene::{Frames, Scene};
+use super::scene::Scene;
 use super::setup_error::SetupError;
 use super::simulation::Simulation;
 
@@ -40,14 +41,7 @@ pub fn predict(scene: &Scene) -> Result<Prediction, SetupError> {
     let time = simulation.time().max(f64::MIN_POSITIVE);
     let layout = simulation.layout();
     let record = simulation.into_record();
-    let frames = match &scene.output.frames {
-        Frames::Spaced { frames, .. } => *frames,
-        Frames::At { times } => times.len(),
-    } as f64
-        + 1.0;
-    // Curvature, metric, velocity, two positions, the densities and what the scene asks for.
-    let fields = 5 + layout.densities() + record.fields.len();
-    let file_bytes = 8.0 * frames * (layout.nodes() * fields) as f64;
+    let file_bytes = frame_bytes(scene, layout, record.fields.len());
     let decades = (scene.time.end / time).log10().max(0.0);
     let finer = (1e-5 / scene.accuracy.tolerance).powf(0.2);
     Ok(Prediction {

@@ -46,6 +46,20 @@ pub struct Frame {
     pub diagnostics: Vec<f64>,
 }
 
+impl Frame {
+    /// Whether it holds as many values of each kind as `other`.
+    pub(super) fn is_shaped_like(&self, other: &Self) -> bool {
+        let values = |frame: &Self| [&frame.energy_terms, &frame.mass, &frame.diagnostics].map(Vec::len);
+        let fields = |frame: &Self| [&frame.curvature, &frame.metric, &frame.normal_velocity].map(Vec::len);
+        let named = |frame: &Self| [&frame.density, &frame.fields].map(|named| named.iter().map(Vec::len).collect());
+        let named: [[Vec<usize>; 2]; 2] = [named(self), named(other)];
+        values(self) == values(other)
+            && fields(self) == fields(other)
+            && self.position.len() == other.position.len()
+            && named[0] == named[1]
+    }
+}
+
 /// One entry per accepted step.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct StepLog {
@@ -76,6 +90,12 @@ impl StepLog {
             order: Vec::with_capacity(steps),
             rejections: Vec::with_capacity(steps),
         }
+    }
+
+    /// Number of entries of each column.
+    pub(super) fn lengths(&self) -> [usize; 6] {
+        let Self { time, size, energy, dissipation, order, rejections } = self;
+        [time.len(), size.len(), energy.len(), dissipation.len(), order.len(), rejections.len()]
     }
 }
 

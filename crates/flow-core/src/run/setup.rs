@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::diagnostics::Diagnostics;
 use super::energy_terms::{Initial, energy_terms};
 use super::grading::{grading, resample};
+use super::limits;
 use super::membrane::Membrane;
 use super::mobilities::{density_mobilities, normal_mobility};
 use super::resolution;
@@ -55,6 +56,7 @@ impl Setup {
         let area = area(&state, layout, &curve, grading.clone());
         let initial = Initial { length: initial_length, area };
         let (flow, diagnostics) = flow(scene, initial, nodes, grading)?;
+        limits::check(scene, layout, diagnostics.field_names().len())?;
         let solver = linear_solver(scene.accuracy.linear_solver);
         let membrane = Membrane::new(flow, solver, curve.turning_number, curve.angle);
         let placement = Placement { angle: curve.angle, centre: curve.centre };

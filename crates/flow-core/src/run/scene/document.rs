@@ -9,11 +9,14 @@ use serde::{Deserialize, Serialize};
 use toml::Spanned;
 use toml::de::{DeTable, Deserializer};
 
+use super::density::MAX_DENSITIES;
 use super::error::{Fault, SceneError};
+use super::keywords::Entries;
 use super::overrides;
 use super::report::Report;
 use super::section::Section;
 use super::shipped::SHIPPED;
+use super::suggest::nearest;
 use super::{Accuracy, Curve, Density, Energy, Flow, Gauge, Nodes, Output, Time};
 
 /// Longer texts are not scenes.
@@ -33,7 +36,7 @@ pub struct Scene {
     pub curve: Curve,
     /// Tables `[[density]]`, in the order of the components.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    #[schemars(default)]
+    #[schemars(default, transform = Entries(0, MAX_DENSITIES))]
     pub density: Vec<Density>,
     /// Tables `[energy.*]`.
     pub energy: Energy,
@@ -134,6 +137,12 @@ impl Scene {
     /// The same scene, as if it had been read from `text`.
     pub(crate) fn with_text(self, text: String) -> Self {
         Self { text, ..self }
+    }
+
+    /// The name of the shipped scene that a mistyped `name` may stand for.
+    #[must_use]
+    pub fn shipped_like(name: &str) -> Option<&'static str> {
+        nearest(name, SHIPPED.iter().map(|(shipped, _)| *shipped))
     }
 
     /// Name and text of each scene that comes with the program.
