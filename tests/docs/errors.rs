@@ -49,10 +49,15 @@ fn every_kind_of_error_is_on_the_page() {
     let page = page();
     let sections: Vec<&str> = page.split("\n## ").collect();
     let mut count = 0;
-    for path in ["flow-core", "flow-cli", "hdf5-image"].iter().flat_map(|name| sources(&root().join("crates").join(name))) {
+    for path in ["flow-core", "flow-cli", "hdf5-image"]
+        .iter()
+        .flat_map(|name| sources(&root().join("crates").join(name)))
+    {
         for (name, variants) in errors(&fs::read_to_string(&path).unwrap()) {
             let heading = format!("`{name}`");
-            let section = sections.iter().find(|section| section.lines().next().is_some_and(|line| line.contains(&heading)));
+            let section = sections
+                .iter()
+                .find(|section| section.lines().next().is_some_and(|line| line.contains(&heading)));
             let section = section.unwrap_or_else(|| panic!("no section on {name} of {}", path.display()));
             for variant in variants {
                 assert!(section.contains(&format!("\n| `{variant}`")), "no line on {name}::{variant}");
@@ -70,7 +75,9 @@ fn every_exit_code_is_on_the_page() {
     let map = &map[..map.find("\n}").unwrap()];
     let codes: Vec<u8> = map
         .lines()
-        .filter_map(|line| line.rsplit_once("=> ").and_then(|(_, code)| code.trim_end_matches(',').parse().ok()))
+        .filter_map(|line| {
+            line.rsplit_once("=> ").and_then(|(_, code)| code.trim_end_matches(',').parse().ok())
+        })
         .chain([0, 2, 70])
         .collect();
     assert!(codes.len() >= 8, "{codes:?}");

@@ -13,7 +13,8 @@ const STRIDE: usize = 3;
 fn files(folder: &str) -> Vec<(PathBuf, Vec<u8>)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(folder);
     let entries = fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
-    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).filter(|path| path.is_file()).collect();
+    let mut paths: Vec<PathBuf> =
+        entries.map(|entry| entry.unwrap().path()).filter(|path| path.is_file()).collect();
     paths.sort();
     paths.into_iter().map(|path| (path.clone(), fs::read(path).unwrap())).collect()
 }
@@ -55,7 +56,9 @@ fn checkpoints() {
         let path = Path::new("out.h5.checkpoint-a");
         assert!(decode(&bytes, path).is_ok_and(|checkpoint| checkpoint.simulation(path).is_ok()));
         hostile::checkpoint(&bytes);
-        for (place, value) in (0..bytes.len()).step_by(STRIDE).zip([0x00, 0x7f, 0x80, 0xff].into_iter().cycle()) {
+        for (place, value) in
+            (0..bytes.len()).step_by(STRIDE).zip([0x00, 0x7f, 0x80, 0xff].into_iter().cycle())
+        {
             let mut changed = bytes.clone();
             changed[place] = value;
             hostile::checkpoint(&hostile::mended(&changed));

@@ -6,6 +6,7 @@ use std::panic::catch_unwind;
 
 use curveflow_tests::hostile::short_run;
 use flow_core::run::Scene;
+use proptest::prelude::*;
 use serde_json::Value as Json;
 use toml::Value;
 
@@ -21,12 +22,42 @@ const SCENES: [&str; 7] = [
 ];
 /// As TOML.
 const NUMBERS: [&str; 24] = [
-    "nan", "inf", "-inf", "0", "0.0", "-0.0", "1", "-1", "5e-324", "-5e-324", "1e-308", "1e-162", "1e-16", "1e16",
-    "1e154", "1e308", "-1e308", "1e-400", "1e400", "9223372036854775807", "-9223372036854775808",
-    "99999999999999999999999999", "0xffffffffffffffffff", "2147483648",
+    "nan",
+    "inf",
+    "-inf",
+    "0",
+    "0.0",
+    "-0.0",
+    "1",
+    "-1",
+    "5e-324",
+    "-5e-324",
+    "1e-308",
+    "1e-162",
+    "1e-16",
+    "1e16",
+    "1e154",
+    "1e308",
+    "-1e308",
+    "1e-400",
+    "1e400",
+    "9223372036854775807",
+    "-9223372036854775808",
+    "99999999999999999999999999",
+    "0xffffffffffffffffff",
+    "2147483648",
 ];
-const OTHERS: [&str; 9] =
-    ["''", "' '", "'\u{202e}κ\u{0301}💧'", "'\\u0000'", "true", "[]", "{}", "[[[[[[]]]]]]", "1979-05-27T07:32:00Z"];
+const OTHERS: [&str; 9] = [
+    "''",
+    "' '",
+    "'\u{202e}κ\u{0301}💧'",
+    "'\\u0000'",
+    "true",
+    "[]",
+    "{}",
+    "[[[[[[]]]]]]",
+    "1979-05-27T07:32:00Z",
+];
 const FORMULAS: [&str; 14] = [
     "'1/0'",
     "'0/0'",
@@ -45,7 +76,11 @@ const FORMULAS: [&str; 14] = [
 ];
 
 fn long() -> [String; 3] {
-    [format!("'{}'", "x".repeat(100_000)), format!("'{}1'", "1+".repeat(50_000)), format!("'{}'", "(".repeat(5_000))]
+    [
+        format!("'{}'", "x".repeat(100_000)),
+        format!("'{}1'", "1+".repeat(50_000)),
+        format!("'{}'", "(".repeat(5_000)),
+    ]
 }
 
 /// Dotted keys of all values of a table, lists by index.
@@ -78,25 +113,26 @@ fn tried(text: &str, changes: &[(String, String)]) -> [bool; 2] {
     }
 }
 
+fn values() -> Vec<String> {
+    let short = NUMBERS.into_iter().chain(OTHERS).chain(FORMULAS).map(str::to_owned);
+    short.chain(long()).collect()
+}
+
 #[test]
 fn every_value_can_be_hostile() {
-    let long = long();
-    let values: Vec<&str> =
-        NUMBERS.into_iter().chain(OTHERS).chain(FORMULAS).chain(long.iter().map(String::as_str)).collect();
+    let values = values();
     let [mut all, mut accepted, mut ran] = [0; 3];
     let mut panics = Vec::new();
     for text in SCENES {
         assert_eq!(tried(text, &[]), [true, true], "{text}");
         for key in keys(text) {
             for value in &values {
-                let clock = std::time::Instant::now();
-                let change = [(key.clone(), (*value).to_owned())];
+                let change = [(key.clone(), value.clone())];
                 all += 1;
                 let Ok([is_scene, is_run]) = catch_unwind(|| tried(text, &change)) else {
                     panics.push(format!("{key} = {value:.30}"));
                     continue;
                 };
-                if clock.elapsed().as_secs_f64() > 0.5 { println!("{key} = {value:.30}: {:?}", clock.elapsed()); }
                 accepted += usize::from(is_scene);
                 ran += usize::from(is_run);
             }
@@ -105,6 +141,22 @@ fn every_value_can_be_hostile() {
     println!("{all} scenes, {accepted} accepted, {ran} of them ran");
     assert!(panics.is_empty(), "{} panics:\n{}", panics.len(), panics.join("\n"));
     assert!(ran > 0 && accepted < all);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Several at once: what each key checks alone, and what they are together.
+    #[test]
+    fn several_values_can_be_hostile(
+        text in prop::sample::select(SCENES.to_vec()),
+        picks in prop::collection::vec(any::<(prop::sample::Index, prop::sample::Index)>(), 2..5),
+    ) {
+        let (keys, values) = (keys(text), values());
+        let changes: Vec<(String, String)> =
+            picks.iter().map(|(key, value)| (key.get(&keys).clone(), value.get(&values).clone())).collect();
+        tried(text, &changes);
+    }
 }
 
 /// The scenes above name every key that there is.

@@ -109,7 +109,9 @@ fn difference(reviewed: &str, now: &str) -> String {
         match (reviewed.next(), now.next()) {
             (None, None) => return "the ends of the files".to_owned(),
             (a, b) if a == b => {}
-            (a, b) => return format!("reviewed: {}\n     now: {}", a.unwrap_or("nothing"), b.unwrap_or("nothing")),
+            (a, b) => {
+                return format!("reviewed: {}\n     now: {}", a.unwrap_or("nothing"), b.unwrap_or("nothing"));
+            }
         }
     }
 }

@@ -116,7 +116,8 @@ fn an_interrupted_run_goes_on_to_the_same_bits() {
 /// Checksums keep accidents out, not intent: what does not fit is refused before it is used.
 #[test]
 fn a_whole_checkpoint_that_does_not_fit_is_refused() {
-    let scene = shipped("three_fold", &[("accuracy.nodes", "32"), ("curve", "{ shape = 'circle', radius = 1 }")]);
+    let scene =
+        shipped("three_fold", &[("accuracy.nodes", "32"), ("curve", "{ shape = 'circle', radius = 1 }")]);
     let mut simulation = Simulation::new(&scene).unwrap();
     for _ in 0..5 {
         simulation.step(&mut Quiet);
@@ -136,7 +137,9 @@ fn a_whole_checkpoint_that_does_not_fit_is_refused() {
     assert!(whole.simulation(path).is_ok());
     assert!(refused(&|checkpoint| checkpoint.frames[0].time = f64::NAN).contains("times of the frames"));
     assert!(refused(&|checkpoint| checkpoint.frames[0].mass.clear()).contains("values of the frames"));
-    assert!(refused(&|checkpoint| checkpoint.frames[0].density[0].truncate(3)).contains("values of the frames"));
+    assert!(
+        refused(&|checkpoint| checkpoint.frames[0].density[0].truncate(3)).contains("values of the frames")
+    );
     assert!(refused(&|checkpoint| checkpoint.frames.clear()).contains("the frames"));
     assert!(refused(&|checkpoint| checkpoint.steps.order.clear()).contains("log of steps"));
     assert!(refused(&|checkpoint| checkpoint.scene.resolved.clear()).contains("`curve` is missing"));

@@ -64,11 +64,15 @@ fn more_than_there_may_be_is_refused_at_once() {
     for (key, tables) in cases {
         let rest = GOOD.replace("[[density]]", "").replace("name =", "title2 =");
         let rest = &rest[rest.find("[energy.bending]").unwrap()..];
-        let error = Scene::parse(&format!("curve.shape = 'trillium'\n{rest}{tables}"), "bad.toml").unwrap_err();
-        let [Problem { key: at, fault: Fault::WrongCount { count, .. }, .. }] = error.problems() else { panic!("{error}") };
+        let error =
+            Scene::parse(&format!("curve.shape = 'trillium'\n{rest}{tables}"), "bad.toml").unwrap_err();
+        let [Problem { key: at, fault: Fault::WrongCount { count, .. }, .. }] = error.problems() else {
+            panic!("{error}")
+        };
         assert!(at == key && *count >= 30_000, "{error}");
     }
-    let many = GOOD.replace("target_ratio = 1.8", "target_ratio = 1.8\n[energy.local]\nexpression = 'a1_sigma^2*a7'");
+    let many = GOOD
+        .replace("target_ratio = 1.8", "target_ratio = 1.8\n[energy.local]\nexpression = 'a1_sigma^2*a7'");
     let densities: String = (1..=7).fold(String::new(), |text, k| {
         format!("{text}\n[[density]]\nname = 'a{k}'\ninitial = 0.5\nmobility = 'diffusion'\n")
     });

@@ -66,7 +66,9 @@ pub fn checkpoint(bytes: &[u8]) {
 pub fn mended(bytes: &[u8]) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
     let mut start = HEAD;
-    while let Some((head, content)) = bytes.get_mut(start..).and_then(|rest| rest.split_at_mut_checked(SECTION_HEAD)) {
+    while let Some((head, content)) =
+        bytes.get_mut(start..).and_then(|rest| rest.split_at_mut_checked(SECTION_HEAD))
+    {
         let length: [u8; 8] = std::array::from_fn(|k| head[k]);
         let Ok(length) = usize::try_from(u64::from_le_bytes(length)) else { break };
         let Some(content) = content.get(..length) else { break };

@@ -28,7 +28,8 @@ pub fn expression(bytes: &[u8]) {
 
 /// Everywhere that numbers can be.
 fn evaluate(expressions: &[Expression]) {
-    let ends = [0.0, -0.0, 1.0, -2.5, 5e-324, -1e-308, 1e308, -1e308, f64::INFINITY, f64::NEG_INFINITY, f64::NAN];
+    let ends =
+        [0.0, -0.0, 1.0, -2.5, 5e-324, -1e-308, 1e308, -1e308, f64::INFINITY, f64::NEG_INFINITY, f64::NAN];
     let (kappa, rho): (Vec<f64>, Vec<f64>) = ends.iter().flat_map(|a| ends.map(|b| (*a, b))).unzip();
     let program = Program::compile(&expressions.iter().collect::<Vec<_>>());
     assert!(8 * program.scratch_len() <= MOST_SCRATCH, "{} numbers of scratch", program.scratch_len());
@@ -38,7 +39,8 @@ fn evaluate(expressions: &[Expression]) {
     for (expression, output) in expressions.iter().zip(&outputs) {
         let value = expression.evaluate(&[kappa[0], rho[0]]);
         // Compiled, products and powers are taken in another order: only what both can hold must be alike.
-        let alike = !(value.is_finite() && output[0].is_finite()) || (value - output[0]).abs() <= value.abs().max(1.0);
+        let alike = !(value.is_finite() && output[0].is_finite())
+            || (value - output[0]).abs() <= value.abs().max(1.0);
         assert!(alike, "{}: {value} ≠ {}", expression.text(), output[0]);
     }
 }

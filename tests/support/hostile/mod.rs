@@ -23,6 +23,10 @@ const LONGEST_MESSAGE: usize = 20_000;
 /// A message says something, in lines of printable characters.
 fn check_message(error: &impl std::error::Error) {
     let message = error.to_string();
-    assert!(!message.is_empty() && message.len() < LONGEST_MESSAGE, "{} bytes: {message:.200}", message.len());
+    assert!(
+        !message.is_empty() && message.len() < LONGEST_MESSAGE,
+        "{} bytes: {message:.200}",
+        message.len()
+    );
     assert!(!message.chars().any(|c| c.is_control() && c != '\n'), "{message:?}");
 }

@@ -76,7 +76,8 @@ pub(super) fn unknown_name(name: &str, column: usize, allowed: &[&str]) -> Expre
 }
 
 fn nearest<'a>(name: &str, allowed: &[&'a str]) -> Option<&'a str> {
-    let (distance, near) = allowed.iter().map(|candidate| (edit_distance(name, candidate), *candidate)).min()?;
+    let (distance, near) =
+        allowed.iter().map(|candidate| (edit_distance(name, candidate), *candidate)).min()?;
     let tolerated = if name.chars().count() <= 3 { 1 } else { 2 };
     (distance <= tolerated).then_some(near)
 }

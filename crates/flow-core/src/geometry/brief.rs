@@ -25,7 +25,8 @@ mod tests {
 
     #[test]
     fn digits_are_seen_and_zeros_are_few() {
-        let texts = [0.0, 1.25704, -0.012345678, 99_999.4, 1e5, 1.0311e-8, f64::INFINITY].map(|x| Brief(x).to_string());
+        let texts = [0.0, 1.25704, -0.012345678, 99_999.4, 1e5, 1.0311e-8, f64::INFINITY]
+            .map(|x| Brief(x).to_string());
         assert_eq!(texts, ["0", "1.257", "-0.01235", "99999", "1.000e5", "1.031e-8", "inf"]);
     }
 }

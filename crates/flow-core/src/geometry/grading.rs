@@ -300,9 +300,10 @@ mod tests {
         (vanishing[3], vanishing[8]) = (1e308, f64::INFINITY);
         assert!(matches!(Grading::new(&vanishing), Err(GradingError::NotPositive { value: 3.0, .. })));
         vanishing[3] = 3.0;
-        assert!(
-            matches!(Grading::new(&vanishing), Err(GradingError::NotPositive { value: f64::INFINITY, .. }))
-        );
+        assert!(matches!(
+            Grading::new(&vanishing),
+            Err(GradingError::NotPositive { value: f64::INFINITY, .. })
+        ));
         for size in [5e-324, 1e308] {
             assert_eq!(Grading::new(&[size; 64]).unwrap(), Grading::new(&[1.0; 64]).unwrap());
         }

@@ -51,7 +51,8 @@ impl Frame {
     pub(super) fn is_shaped_like(&self, other: &Self) -> bool {
         let values = |frame: &Self| [&frame.energy_terms, &frame.mass, &frame.diagnostics].map(Vec::len);
         let fields = |frame: &Self| [&frame.curvature, &frame.metric, &frame.normal_velocity].map(Vec::len);
-        let named = |frame: &Self| [&frame.density, &frame.fields].map(|named| named.iter().map(Vec::len).collect());
+        let named =
+            |frame: &Self| [&frame.density, &frame.fields].map(|named| named.iter().map(Vec::len).collect());
         let named: [[Vec<usize>; 2]; 2] = [named(self), named(other)];
         values(self) == values(other)
             && fields(self) == fields(other)

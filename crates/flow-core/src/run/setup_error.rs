@@ -1,8 +1,8 @@
 //! Why a scene that reads well makes no initial state.
 
 use crate::expression::ExpressionError;
-use crate::geometry::{Brief, GradingError};
 use crate::geometry::shapes::ShapeError;
+use crate::geometry::{Brief, GradingError};
 
 /// The curve, the densities or the energy of a scene cannot be used together.
 #[derive(Debug, thiserror::Error)]

@@ -23,6 +23,22 @@ use super::{Accuracy, Curve, Density, Energy, Flow, Gauge, Nodes, Output, Time};
 pub const MAX_SCENE_BYTES: usize = 1 << 20;
 
 /// A scene that has been checked: everything that a run needs to know.
+///
+/// ```
+/// use flow_core::run::Scene;
+/// use flow_core::run::scene::{Nodes, Shape};
+///
+/// let (_, text) = Scene::shipped().iter().find(|(name, _)| *name == "circle").unwrap();
+/// let changes = [("curve.radius".to_owned(), "2.0".to_owned()), ("accuracy.nodes".to_owned(), "128".to_owned())];
+/// let scene = Scene::parse_with(text, "circle", &changes)?;
+/// assert_eq!(scene.curve.shape, Shape::Circle { radius: 2.0 });
+/// assert_eq!(scene.accuracy.nodes, Nodes::Count(128));
+///
+/// // Written out it has every default, and reads as the same scene.
+/// assert!(scene.to_toml().contains("gauge = \"scaled-arc-length\""));
+/// assert_eq!(Scene::parse(&scene.to_toml(), "again")?.to_toml(), scene.to_toml());
+/// # Ok::<(), flow_core::run::SceneError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[schemars(
     title = "A scene of Curveflow",

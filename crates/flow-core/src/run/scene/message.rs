@@ -33,9 +33,12 @@ pub(super) fn plain(text: &str) -> String {
 #[cold]
 pub(super) fn unreadable(path: &Path) -> String {
     let name = plain(&path.display().to_string());
-    let meant = Scene::shipped_like(&name).map(|shipped| format!("did you mean the shipped scene `{shipped}`? "));
+    let meant =
+        Scene::shipped_like(&name).map(|shipped| format!("did you mean the shipped scene `{shipped}`? "));
     let meant = meant.unwrap_or_default();
-    format!("cannot read the scene `{name}`; {meant}check the path, or list the shipped scenes with `curveflow scenes`")
+    format!(
+        "cannot read the scene `{name}`; {meant}check the path, or list the shipped scenes with `curveflow scenes`"
+    )
 }
 
 #[cold]

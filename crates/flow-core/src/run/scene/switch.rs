@@ -34,7 +34,8 @@ impl Switch {
         let entries = list.list("a list of tables").unwrap_or_default();
         if entries.len() > MAX_SWITCHES {
             let bound = Bound::Between(0.0, MAX_SWITCHES as f64);
-            let remedy = "keep those that the solution needs: each switch adds an error and restarts the method";
+            let remedy =
+                "keep those that the solution needs: each switch adds an error and restarts the method";
             list.fault(Fault::WrongCount { count: entries.len(), bound, remedy });
             return Vec::new();
         }

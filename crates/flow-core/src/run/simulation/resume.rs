@@ -68,7 +68,8 @@ pub enum ResumeError {
 
 /// Whether times are finite and increase.
 fn is_sequence(times: impl Iterator<Item = f64> + Clone) -> bool {
-    times.clone().all(f64::is_finite) && times.clone().zip(times.skip(1)).all(|(before, after)| before < after)
+    times.clone().all(f64::is_finite)
+        && times.clone().zip(times.skip(1)).all(|(before, after)| before < after)
 }
 
 impl Simulation {
