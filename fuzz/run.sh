@@ -17,5 +17,5 @@ checkpoint)
 *) set -- ;;
 esac
 [ ! -d "seeds/$target" ] || set -- "seeds/$target" "$@"
-exec cargo fuzz run --sanitizer none "$target" "corpus/$target" "$@" -- \
+exec cargo fuzz run --sanitizer none "$target" "corpus/$target" "$@" -- -dict=scene.dict \
     -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -max_len=20000 -print_final_stats=1

@@ -1,4 +1,5 @@
 //! `docs/errors.md` knows every kind of error and every exit code.
+#![allow(clippy::unwrap_used)] // a failed test may panic
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,5 +1,6 @@
 //! Every value of a scene in turn becomes one that nobody should write: the scene is refused with a message, or it sets
 //! up and runs, or fails with a message. Nothing panics, and nothing takes all memory.
+#![allow(clippy::unwrap_used)] // a failed test may panic
 
 use std::collections::BTreeSet;
 use std::panic::catch_unwind;

@@ -74,7 +74,7 @@ impl Replayed {
                 fs::write(folder.0.join(name), content.replace(&old, &body) + "\n").unwrap();
             } else if let Some(command) = head.strip_prefix("$ ") {
                 let (output, code) = folder.call(command);
-                body = output.trim_end().to_owned();
+                output.trim_end().clone_into(&mut body);
                 printed = Some(code);
             } else if head.starts_with("exit ") {
                 let code = printed.take().expect("a command that exits");

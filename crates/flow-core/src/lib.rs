@@ -79,5 +79,5 @@ pub mod output;
 pub mod run;
 
 #[doc = include_str!("../../../THEORY.md")]
-#[allow(rustdoc::broken_intra_doc_links, rustdoc::invalid_html_tags)] // brackets and angles are mathematics there
+#[allow(clippy::doc_markdown, rustdoc::broken_intra_doc_links, rustdoc::invalid_html_tags)] // they are mathematics there
 pub mod theory {}
