@@ -22,7 +22,8 @@ const SCENES: [&str; 7] = [
     include_str!("../../fuzz/seeds/scene/points.toml"),
 ];
 /// As TOML.
-const NUMBERS: [&str; 24] = [
+const NUMBERS: [&str; 25] = [
+    "8",
     "nan",
     "inf",
     "-inf",
@@ -157,6 +158,26 @@ proptest! {
         let changes: Vec<(String, String)> =
             picks.iter().map(|(key, value)| (key.get(&keys).clone(), value.get(&values).clone())).collect();
         tried(text, &changes);
+    }
+}
+
+/// As few nodes as a scene may have, with as many densities, under every solver.
+#[test]
+fn the_fewest_nodes_are_enough_to_start() {
+    for (nodes, densities) in (8..14).flat_map(|nodes| (0..8).map(move |densities| (nodes, densities))) {
+        for solver in ["auto", "fourier", "banded", "dense"] {
+            let density =
+                |k| format!("{{ name = 'd{k}', initial = '0.5 + 0.1*cos(2*pi*s)', mobility = 'diffusion' }}");
+            let list = (0..densities).map(density).collect::<Vec<_>>().join(", ");
+            let text = format!(
+                "curve = {{ shape = 'ellipse', semi_axes = [1.1, 1] }}
+                density = [{list}]
+                energy.bending.rigidity = 1
+                time.end = 1
+                accuracy = {{ nodes = {nodes}, linear_solver = '{solver}', tolerance = 1e-2 }}"
+            );
+            assert_eq!(tried(&text, &[]), [true, true], "{text}");
+        }
     }
 }
 

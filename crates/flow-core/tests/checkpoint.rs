@@ -132,7 +132,7 @@ fn a_whole_checkpoint_that_does_not_fit_is_refused() {
         }
     };
     let mut whole = decode(&encode(&simulation), path).unwrap();
-    assert!(whole.frames.len() == 1 && whole.steps.time.len() == 5);
+    assert!(whole.frames.len() > 1 && whole.steps.time.len() == 5);
     whole.frames[0].fields.clear();
     assert!(whole.simulation(path).is_ok());
     assert!(refused(&|checkpoint| checkpoint.frames[0].time = f64::NAN).contains("times of the frames"));

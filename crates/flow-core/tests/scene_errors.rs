@@ -157,7 +157,7 @@ fn hostile_input_is_refused_politely() {
         format!("{}a = 1", "a.".repeat(deep)),
         format!("[{}a]", "a.".repeat(deep)),
         "[[density]]\n".repeat(50_000),
-        (0..80_000).map(|i| format!("k{i}=1\n")).collect(),
+        (0..80_000).map(|i| format!("k{i}=1")).collect::<Vec<_>>().join("\n"),
         "x".repeat(1 << 20),
         format!("{} = 1", "é".repeat(1 << 19)),
         "curve = 1\ndensity = 1\nenergy = 1\nflow = 1\ntime = 1\naccuracy = 1\noutput = 1\ntitle = 1"

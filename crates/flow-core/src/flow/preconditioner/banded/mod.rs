@@ -20,6 +20,8 @@ use crate::operators::{CyclicBanded, FactorisationError};
 
 /// More nodes make the assembled sixth-order band inaccurate, and buy nothing.
 const MOST_NODES: usize = 1024;
+/// F fields have a band of half-width 4F − 1, which needs three times as many rows: 12 nodes for any F.
+const FEWEST_NODES: usize = 12;
 
 /// A banded approximate inverse acting on spectra.
 pub trait Banded: Debug + Send {
@@ -39,6 +41,7 @@ pub fn build(flow: &GradientFlow) -> Option<Box<dyn Banded>> {
     }
     let (nodes, grading) = (flow.layout().nodes(), flow.grading().map(Arc::as_ref));
     match flow.layout().fields() {
+        _ if nodes < FEWEST_NODES => None,
         1 => Some(Box::new(LocalPart::<1, 3>::new(nodes, grading))),
         2 => Some(Box::new(LocalPart::<2, 7>::new(nodes, grading))),
         3 => Some(Box::new(LocalPart::<3, 11>::new(nodes, grading))),
