@@ -1,5 +1,6 @@
 //! What the physics tests share: scenes, runs, and the checks that every run must pass.
 
+pub mod hostile;
 pub mod physics;
 
 use flow_core::run::{Frame, Quiet, Record, Scene, StopReason};

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use flow_core::output::StorageError;
 use flow_core::output::page::PageError;
 use flow_core::output::picture::PictureError;
+use flow_core::run::SetupError;
 use flow_core::run::tradeoff::TradeoffError;
 
 /// Why a command failed.
@@ -15,9 +16,12 @@ pub enum CliError {
     /// The arguments do not make sense together.
     #[error("{message}; see `curveflow help`")]
     Usage { message: String },
-    /// The scene is not valid.
-    #[error("the scene is not valid")]
-    InvalidScene { source: Box<dyn Error + Send + Sync> },
+    /// The scene is not valid; each problem names its line or its key.
+    #[error(transparent)]
+    InvalidScene(Box<dyn Error + Send + Sync>),
+    /// The scene reads well, but its curve, densities and energy make no initial state.
+    #[error("{}: {reason}", .scene.display())]
+    Unusable { scene: PathBuf, reason: SetupError },
     /// The integration failed; the last good state is in the output.
     #[error("{message}; the last good state is in {}", .output.display())]
     Numerical { message: String, output: PathBuf },
@@ -71,7 +75,7 @@ impl From<StorageError> for CliError {
 impl From<TradeoffError> for CliError {
     fn from(error: TradeoffError) -> Self {
         match error {
-            TradeoffError::Setup(error) => Self::InvalidScene { source: Box::new(error) },
+            TradeoffError::Setup(error) => Self::InvalidScene(Box::new(error)),
             TradeoffError::FewerNodes { .. } => Self::Usage { message: error.to_string() },
             TradeoffError::Interrupted => Self::LadderStopped { measured: 0 },
             other => Self::Unmeasured(other),

@@ -73,7 +73,7 @@ fn main() -> ExitCode {
 fn exit_code(error: &CliError) -> u8 {
     match error {
         CliError::Usage { .. } => 2,
-        CliError::InvalidScene { .. } => 3,
+        CliError::InvalidScene(_) | CliError::Unusable { .. } => 3,
         CliError::Numerical { .. }
         | CliError::Unmeasured(_)
         | CliError::AllFailed

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use flow_core::output::StorageError;
-use flow_core::output::checkpoint::{decode, encode};
+use flow_core::output::checkpoint::{Checkpoint, decode, encode};
 use flow_core::run::{Counters, Observer, Progress, Quiet, Record, Scene, Simulation, StopReason};
 
 const SWITCHES: &str = "[{ time = 0.002, gauge = 'graded', grading = 'exp(0.5*cos(6*pi*s))' }, \
@@ -116,6 +116,38 @@ fn an_interrupted_run_goes_on_to_the_same_bits() {
             assert_same(&whole, &resumed, &format!("{}, interrupted at step {steps}", scene.title));
         }
     }
+}
+
+/// Checksums keep accidents out, not intent: what does not fit is refused before it is used.
+#[test]
+fn a_whole_checkpoint_that_does_not_fit_is_refused() {
+    let scene =
+        shipped("three_fold", &[("accuracy.nodes", "32"), ("curve", "{ shape = 'circle', radius = 1 }")]);
+    let mut simulation = Simulation::new(&scene).unwrap();
+    for _ in 0..5 {
+        simulation.step(&mut Quiet);
+    }
+    let path = Path::new("test.checkpoint");
+    let refused = |change: &dyn Fn(&mut Checkpoint)| {
+        let mut checkpoint = decode(&encode(&simulation), path).unwrap();
+        change(&mut checkpoint);
+        match checkpoint.simulation(path) {
+            Err(StorageError::ForeignCheckpoint { reason, .. }) => reason,
+            other => panic!("{other:?}"),
+        }
+    };
+    let mut whole = decode(&encode(&simulation), path).unwrap();
+    assert!(whole.frames.len() > 1 && whole.steps.time.len() == 5);
+    whole.frames[0].fields.clear();
+    assert!(whole.simulation(path).is_ok());
+    assert!(refused(&|checkpoint| checkpoint.frames[0].time = f64::NAN).contains("times of the frames"));
+    assert!(refused(&|checkpoint| checkpoint.frames[0].mass.clear()).contains("values of the frames"));
+    assert!(
+        refused(&|checkpoint| checkpoint.frames[0].density[0].truncate(3)).contains("values of the frames")
+    );
+    assert!(refused(&|checkpoint| checkpoint.frames.clear()).contains("the frames"));
+    assert!(refused(&|checkpoint| checkpoint.steps.order.clear()).contains("log of steps"));
+    assert!(refused(&|checkpoint| checkpoint.scene.resolved.clear()).contains("`curve` is missing"));
 }
 
 #[test]

@@ -220,6 +220,38 @@ fn hostile_texts_are_refused() {
     }
 }
 
+/// What grows fastest is refused, or stays small: a text cannot take all memory, nor go on for ever.
+#[test]
+fn the_costliest_texts_stay_small() {
+    let nested = |open: &str, close: &str| format!("{}kappa{}", open.repeat(60), close.repeat(60));
+    let factors: Vec<String> = (0..400).map(|k| format!("(rho+{k})")).collect();
+    let texts = [
+        nested("exp(", ")"),
+        nested("tan(", ")"),
+        nested("abs(kappa-", ")"),
+        nested("(rho*", ")^kappa"),
+        vec!["kappa"; 60].join("^"),
+        factors.join("*"),
+        factors.join("/"),
+        format!("({})^({})", factors[..150].join("*"), factors[150..300].join("/")),
+    ];
+    for text in &texts {
+        let expression = Expression::parse(text, &VARIABLES).unwrap();
+        let mut all = vec![expression.clone()];
+        let mut refused = 0;
+        for variable in [0, 1, 0, 1] {
+            match all[all.len() - 1].derivative(variable) {
+                Ok(derivative) => all.push(derivative),
+                Err(ExpressionError::TooManyTerms { limit: 20_000 }) => refused += 1,
+                Err(error) => panic!("{text:.40}: {error}"),
+            }
+        }
+        let program = Program::compile(&all.iter().collect::<Vec<_>>());
+        let registers = program.scratch_len() / flow_core::expression::LANES;
+        assert!(registers <= 4096, "{text:.40}: {registers} registers, {refused} derivatives refused");
+    }
+}
+
 #[test]
 fn the_longest_sums_and_products_work() {
     for sign in ["+", "*", "-", "/"] {

@@ -24,7 +24,7 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     let scene = args.scene.read()?;
     let clock = Instant::now();
     let Prediction { nodes, most_nodes, unknowns, memory_bytes, file_bytes, seconds_per_step, steps } =
-        predict(&scene).map_err(|error| CliError::InvalidScene { source: Box::new(error) })?;
+        predict(&scene).map_err(|error| args.scene.unusable(error))?;
     if args.json {
         let value = serde_json::json!({
             "nodes": nodes,

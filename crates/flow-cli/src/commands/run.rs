@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use flow_core::output::StorageError;
 use flow_core::output::atomic_file::check_writable;
 use flow_core::output::checkpoint::{Found, Lock, Pair};
 use flow_core::run::{Scene, Simulation};
@@ -37,14 +38,21 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     if args.resume {
         return go_on(args, &scene, &output, pair);
     }
-    check_writable(&output, args.replace)?;
+    if let Err(error) = check_writable(&output, args.replace) {
+        if matches!(error, StorageError::Exists { .. }) {
+            // That a run can go on is better news than that a file is in the way.
+            let _lock = Lock::of(&output)?;
+            pair.start_anew(false)?;
+        }
+        return Err(error.into());
+    }
     let _lock = Lock::of(&output)?;
     pair.start_anew(args.replace)?;
-    args.conduct.run(simulation(&scene)?, pair, args.replace)
+    args.conduct.run(simulation(args, &scene)?, pair, args.replace)
 }
 
-fn simulation(scene: &Scene) -> Result<Simulation, CliError> {
-    Simulation::new(scene).map_err(|error| CliError::InvalidScene { source: Box::new(error) })
+fn simulation(args: &Args, scene: &Scene) -> Result<Simulation, CliError> {
+    Simulation::new(scene).map_err(|error| args.scene.unusable(error))
 }
 
 fn go_on(args: &Args, scene: &Scene, output: &Path, mut pair: Pair) -> Result<(), CliError> {
@@ -57,7 +65,7 @@ fn go_on(args: &Args, scene: &Scene, output: &Path, mut pair: Pair) -> Result<()
         None if output.exists() => resume::already_done(&args.conduct, output),
         None => {
             check_writable(output, false)?;
-            args.conduct.run(simulation(scene)?, pair, false)
+            args.conduct.run(simulation(args, scene)?, pair, false)
         }
     }
 }

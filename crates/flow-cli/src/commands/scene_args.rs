@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use flow_core::run::Scene;
+use flow_core::run::{Scene, SetupError};
 
 use crate::error::CliError;
 
@@ -23,7 +23,12 @@ impl SceneArgs {
             Some((name, text)) => Scene::parse_with(text, name, &self.set),
             None => Scene::read_with(&self.scene, &self.set),
         };
-        scene.map_err(|error| CliError::InvalidScene { source: Box::new(error) })
+        scene.map_err(|error| CliError::InvalidScene(Box::new(error)))
+    }
+
+    /// The error of a scene that reads well and makes no initial state.
+    pub fn unusable(&self, reason: SetupError) -> CliError {
+        CliError::Unusable { scene: self.scene.clone(), reason }
     }
 
     /// Name for what is made of the scene: the file's name without its ending.

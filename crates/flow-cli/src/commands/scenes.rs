@@ -26,7 +26,8 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     let found = scenes.iter().find(|(shipped, _)| shipped == name);
     let (_, text) = found.ok_or_else(|| CliError::Usage {
         message: format!(
-            "no shipped scene is called `{name}`; there are {}",
+            "no shipped scene is called `{name}`; {}there are {}",
+            Scene::shipped_like(name).map(|near| format!("did you mean `{near}`? ")).unwrap_or_default(),
             scenes.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ")
         ),
     })?;

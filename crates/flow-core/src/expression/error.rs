@@ -49,14 +49,37 @@ impl fmt::Display for DidYouMean<'_> {
     }
 }
 
+/// What others write, and what it is called here.
+const ALIASES: [(&str, &str); 7] = [
+    ("log", "ln"),
+    ("fabs", "abs"),
+    ("κ", "kappa"),
+    ("ρ", "rho"),
+    ("φ", "phi"),
+    ("π", "pi"),
+    ("theta", "phi"),
+];
+/// Variables of expressions elsewhere in a scene: whoever writes one meant it.
+const VARIABLES: [&str; 5] = ["s", "phi", "q", "kappa", "rho"];
+
 /// The error for `name`, with the nearest allowed name if one is close.
 #[cold]
 pub(super) fn unknown_name(name: &str, column: usize, allowed: &[&str]) -> ExpressionError {
-    let nearest = allowed.iter().map(|candidate| (edit_distance(name, candidate), *candidate)).min();
-    let tolerated = if name.chars().count() <= 3 { 1 } else { 2 };
-    let suggestion = nearest.filter(|(distance, _)| *distance <= tolerated).map(|(_, near)| near.to_owned());
+    let alias = ALIASES.iter().find(|(other, here)| *other == name && allowed.contains(here));
+    let suggestion = match alias {
+        Some((_, here)) => Some((*here).to_owned()),
+        None if VARIABLES.contains(&name) => None,
+        None => nearest(name, allowed).map(str::to_owned),
+    };
     let allowed = allowed.iter().map(|&name| name.to_owned()).collect();
     ExpressionError::UnknownName { name: name.to_owned(), column, suggestion, allowed }
+}
+
+fn nearest<'a>(name: &str, allowed: &[&'a str]) -> Option<&'a str> {
+    let (distance, near) =
+        allowed.iter().map(|candidate| (edit_distance(name, candidate), *candidate)).min()?;
+    let tolerated = if name.chars().count() <= 3 { 1 } else { 2 };
+    (distance <= tolerated).then_some(near)
 }
 
 /// Number of inserted, removed or replaced characters between two names, letter case ignored.
@@ -92,6 +115,13 @@ mod tests {
     fn unknown_name_lists_what_is_allowed() {
         let message = unknown_name("kapa", 3, &["kappa", "exp"]).to_string();
         assert_eq!(message, "column 3: unknown name `kapa` (did you mean `kappa`?); allowed: kappa, exp");
+        let suggestion = |name, allowed: &[&str]| match unknown_name(name, 1, allowed) {
+            ExpressionError::UnknownName { suggestion, .. } => suggestion,
+            _ => None,
+        };
+        assert_eq!(suggestion("log", &["ln", "cos"]).as_deref(), Some("ln"));
+        assert_eq!(suggestion("κ", &["rho"]), None);
+        assert_eq!(suggestion("phi", &["s", "pi"]), None);
         let message = unknown_name("velocity", 1, &["kappa"]).to_string();
         assert_eq!(message, "column 1: unknown name `velocity`; allowed: kappa");
     }

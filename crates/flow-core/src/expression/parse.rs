@@ -20,6 +20,7 @@ const MAX_LENGTH: usize = 4096;
 const MAX_DEPTH: usize = 64;
 
 const OPERAND: &str = "a number, a name, a function or `(`";
+const OPERAND_AFTER_STAR: &str = "a number, a name, a function or `(`; a power is written `^`";
 
 /// The graph of `text`, operands first, the value last.
 pub(super) fn parse(text: &str, variables: &[&str]) -> Result<Vec<Node>, ExpressionError> {
@@ -82,6 +83,9 @@ impl<'a> Parser<'a> {
                 _ => return Ok(left),
             };
             self.advance()?;
+            if operator == Operator::Multiply && self.token == Token::Sign('*') {
+                return Err(self.unexpected(OPERAND_AFTER_STAR));
+            }
             let right = self.signed()?;
             left = self.graph.binary(operator, left, right)?;
         }
@@ -201,6 +205,7 @@ mod tests {
         assert_eq!(message("2 kappa"), format!("column 3: found `kappa`, {operator}"));
         assert_eq!(message("kappa)"), format!("column 6: found `)`, {operator}"));
         assert_eq!(message("1 + * 2"), format!("column 5: found `*`, expected {OPERAND}"));
+        assert_eq!(message("2**3"), format!("column 3: found `*`, expected {OPERAND_AFTER_STAR}"));
         assert_eq!(message("1 +"), format!("column 4: the expression ends here, expected {OPERAND}"));
         assert_eq!(
             message("(1"),

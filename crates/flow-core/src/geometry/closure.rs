@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use super::brief::Brief;
 use super::embedding::Embedding;
 use super::grading::Grading;
 use super::grid::Complex64;
@@ -10,8 +11,8 @@ use super::grid::Complex64;
 /// The curve could not be closed.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "the curve does not close: after {iterations} corrections its ends are {gap:.3e} apart, on a length of \
-     {length:.6e}; use more nodes, or a tighter tolerance"
+    "the curve does not close: after {iterations} corrections its ends are {} apart, on a length of {}; use more \
+     nodes, or a tighter tolerance", Brief(*.gap), Brief(*.length)
 )]
 pub struct ClosureError {
     /// Remaining gap |γ(1) − γ(0)|.

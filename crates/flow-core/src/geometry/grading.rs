@@ -10,7 +10,8 @@ use super::vectors::{mean, mean_of_product, multiply, scale};
 pub enum GradingError {
     /// Not a metric.
     #[error(
-        "the grading is {value} at s = {parameter:.6}: it must be positive and finite for all s in [0, 1)"
+        "the grading is {value:?} at s = {parameter:.6}: it must be positive and finite for all s in [0, 1), and not \
+         vanish beside its largest value; add a constant to it"
     )]
     NotPositive { parameter: f64, value: f64 },
     /// Sharper than the distance of the nodes.
@@ -54,14 +55,18 @@ impl Grading {
     pub fn new(samples: &[f64]) -> Result<Self, GradingError> {
         let nodes = samples.len() / 2;
         assert!(nodes >= 2 && samples.len() == 2 * nodes, "two samples for each of at least two nodes");
-        if let Some(at) = samples.iter().position(|value| !(*value > 0.0 && value.is_finite())) {
+        // In units of a power of two near the largest, which is exact, so that no sum overflows.
+        let largest = samples.iter().copied().filter(|value| value.is_finite()).fold(0.0, f64::max);
+        let unit = largest.log2().floor().min(1023.0).exp2();
+        let relative: Vec<f64> = samples.iter().map(|value| value / unit).collect();
+        if let Some(at) = relative.iter().position(|value| !(*value > f64::EPSILON && value.is_finite())) {
             return Err(GradingError::NotPositive {
                 parameter: at as f64 / samples.len() as f64,
                 value: samples[at],
             });
         }
-        let mut weight: Vec<f64> = samples.iter().copied().step_by(2).collect();
-        let mut at_midpoints: Vec<f64> = samples.iter().copied().skip(1).step_by(2).collect();
+        let mut weight: Vec<f64> = relative.iter().copied().step_by(2).collect();
+        let mut at_midpoints: Vec<f64> = relative.iter().copied().skip(1).step_by(2).collect();
         let total = 1.0 / mean(&weight);
         scale(&mut weight, total);
         scale(&mut at_midpoints, total);
@@ -292,6 +297,17 @@ mod tests {
         assert!(
             matches!(Grading::new(&samples(32, 4.0)), Err(GradingError::NotPositive { value, .. }) if value < 0.0)
         );
+        let mut vanishing = samples(32, 0.0);
+        (vanishing[3], vanishing[8]) = (1e308, f64::INFINITY);
+        assert!(matches!(Grading::new(&vanishing), Err(GradingError::NotPositive { value: 3.0, .. })));
+        vanishing[3] = 3.0;
+        assert!(matches!(
+            Grading::new(&vanishing),
+            Err(GradingError::NotPositive { value: f64::INFINITY, .. })
+        ));
+        for size in [5e-324, 2f64.powi(1023)] {
+            assert_eq!(Grading::new(&[size; 64]).unwrap(), Grading::new(&[1.0; 64]).unwrap());
+        }
         let mut rough = samples(32, 0.0);
         rough[9] = 5.0;
         assert!(matches!(Grading::new(&rough), Err(GradingError::NotResolved { nodes: 32, .. })));

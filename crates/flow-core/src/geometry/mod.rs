@@ -3,6 +3,7 @@
 //! Curves run counter-clockwise; the normal points outwards, so a circle of radius R has curvature +1/R.
 //! The parameter s ∈ [0, 1) has the nodes sᵢ = i/n. See `THEORY.md`, section 1.
 
+mod brief;
 mod cells;
 mod closure;
 mod crossings;
@@ -19,6 +20,7 @@ mod state;
 mod unit_vectors;
 pub mod vectors;
 
+pub(crate) use brief::Brief;
 pub use cells::CellList;
 pub use closure::{Closure, ClosureError};
 pub use crossings::{Crossing, Crossings};

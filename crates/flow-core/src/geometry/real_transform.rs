@@ -158,7 +158,7 @@ fn butterflies<const INVERSE: bool>(
 #[inline(always)]
 fn butterfly_of_chunks<const INVERSE: bool>(low: &Chunk, high: &Chunk, u: &Chunk, half: f64) -> [Chunk; 2] {
     let sign = |l: usize| if l.is_multiple_of(2) == INVERSE { 1.0 } else { -1.0 };
-    let mirror: Chunk = std::array::from_fn(|l| high[LANES - 2 - l + 2 * (l % 2)]);
+    let mirror: Chunk = std::array::from_fn(|l| high[LANES - 2 + 2 * (l % 2) - l]);
     let conjugate: Chunk = std::array::from_fn(|l| if l % 2 == 0 { mirror[l] } else { -mirror[l] });
     let sum: Chunk = std::array::from_fn(|l| half * (low[l] + conjugate[l]));
     let difference: Chunk = std::array::from_fn(|l| half * (low[l] - conjugate[l]));
@@ -168,7 +168,7 @@ fn butterfly_of_chunks<const INVERSE: bool>(low: &Chunk, high: &Chunk, u: &Chunk
     let turned: Chunk = std::array::from_fn(|l| re[l] * difference[l] + im[l] * swapped[l]);
     let below: Chunk =
         std::array::from_fn(|l| if l % 2 == 0 { sum[l] - turned[l] } else { turned[l] - sum[l] });
-    [std::array::from_fn(|l| sum[l] + turned[l]), std::array::from_fn(|l| below[LANES - 2 - l + 2 * (l % 2)])]
+    [std::array::from_fn(|l| sum[l] + turned[l]), std::array::from_fn(|l| below[LANES - 2 + 2 * (l % 2) - l])]
 }
 
 /// The coefficients by chunks of real numbers.

@@ -20,14 +20,20 @@ pub struct AdaptiveOptions {
 pub enum IntegrationError {
     /// The step size fell to the rounding of the time.
     #[error(
-        "the step size fell to {step:.3e} at t = {time:.6e}, the rounding of the time ({rejections} attempts \
-         rejected in a row, the last because {}); the flow may end here (a curve shrinking to a point, an \
+        "the step size fell to {step:.3e} at t = {time:.6e}, the rounding of the time (attempts rejected in a row: \
+         {rejections}, the last because {}); the flow may end here (a curve shrinking to a point, an \
          ill-posed energy), or the tolerance asks for more than double precision: try a larger tolerance or \
          more nodes", reason(*.cause)
     )]
     StepUnderflow { time: f64, step: f64, rejections: u64, cause: Rejection },
+    /// Two times lie so close together that no step fits between them.
+    #[error(
+        "the next time to stop at (the end, a switch, or one asked for) is {step:.3e} after t = {time:.6e}, and a step \
+         must be at least {least:.3e}; choose later times, or a smaller unit of time"
+    )]
+    StopTooNear { time: f64, step: f64, least: f64 },
     /// The allowed number of steps is used up.
-    #[error("{steps} steps were taken up to t = {time:.6e}, the most allowed; raise time.max_steps")]
+    #[error("time.max_steps = {steps} is used up at t = {time:.6e}; raise it, or drop the key")]
     TooManySteps { time: f64, steps: u64 },
     /// The initial state cannot be evaluated.
     #[error(
@@ -87,6 +93,8 @@ const WORTH_NO_GROWTH: f64 = 0.4;
 const MOST_POLISHES: usize = 6;
 /// The step size must stay above this many units in the last place of the time.
 const LEAST_STEP_ULPS: f64 = 16.0;
+/// Differences of times below this have no reciprocals.
+const LEAST_STEP: f64 = LEAST_STEP_ULPS * f64::MIN_POSITIVE;
 
 impl<S: Stepper> Adaptive<S> {
     /// A loop from the state of `stepper`, whose energy is `energy`.
@@ -156,6 +164,9 @@ impl<S: Stepper> Adaptive<S> {
         loop {
             self.stepper.limit_step_size(self.remaining(start));
             let size = self.stepper.step_size();
+            if size < LEAST_STEP {
+                return Err(IntegrationError::StopTooNear { time: start, step: size, least: LEAST_STEP });
+            }
             let mut outcome = self.attempt(problem);
             if let Err(cause) = outcome
                 && self.rest.reached(start)
@@ -180,7 +191,7 @@ impl<S: Stepper> Adaptive<S> {
                     rejections.count(cause);
                     self.counters.rejections.count(cause);
                     let step = self.stepper.step_size();
-                    if step < LEAST_STEP_ULPS * (start.abs() * f64::EPSILON).max(f64::MIN_POSITIVE) {
+                    if step < LEAST_STEP.max(LEAST_STEP_ULPS * start.abs() * f64::EPSILON) {
                         let rejections = rejections.total();
                         return Err(IntegrationError::StepUnderflow { time: start, step, rejections, cause });
                     }

@@ -41,7 +41,7 @@ impl fmt::Display for Operation {
 #[allow(missing_docs)] // each message names its fields
 pub enum StorageError {
     /// The target exists and may not be replaced.
-    #[error("{}: already exists; choose another name, or ask for it to be replaced", .path.display())]
+    #[error("{}: already exists; choose another name, or replace it (--replace, replace=True)", .path.display())]
     Exists { path: PathBuf },
     /// The target is write-protected: replacing it would undo a decision of its owner.
     #[error("{}: is write-protected; choose another name, or make it writable first", .path.display())]
@@ -78,8 +78,8 @@ pub enum StorageError {
     #[error("{}: {reason}", .path.display())]
     ForeignCheckpoint { path: PathBuf, reason: String },
     /// A run was stopped before its end, and is to be thrown away.
-    #[error("{}: a run to this file was stopped before its end ({} steps, t = {time:.6e}); go on with `resume`, choose \
-             another name, or ask for it to be replaced", .path.display(), steps)]
+    #[error("{}: a run to this file was stopped before its end, at t = {time:.6e} (step {steps}); go on with `resume`, \
+             choose another name, or replace it (--replace, replace=True)", .path.display())]
     Unfinished { path: PathBuf, steps: u64, time: f64 },
     /// There is nothing to go on from.
     #[error("{}: has no checkpoint to go on from; checkpoints lie beside the result file, give its name as in `run -o`",

@@ -57,7 +57,7 @@ impl Equilibrium {
             self.quiet_steps = 0;
             return false;
         }
-        self.quiet_steps += 1;
+        self.quiet_steps = self.quiet_steps.saturating_add(1);
         let since = *self.quiet_since.get_or_insert(time);
         self.quiet_steps >= STEPS && time >= 2.0 * since
     }

@@ -7,13 +7,20 @@ use crate::geometry::{Complex64, Grading, PeriodicGrid, ScatteredPoints, paramet
 const UNIFORM: f64 = 1e-12;
 
 impl Frame {
-    /// Whether every field has a value for each node.
-    #[must_use]
-    pub fn is_consistent(&self) -> bool {
+    /// Whether it holds as many values and fields of each kind as `other`, and every field a value for each of its own nodes.
+    pub(super) fn is_shaped_like(&self, other: &Self) -> bool {
+        let counts = |frame: &Self| {
+            [&frame.energy_terms, &frame.mass, &frame.diagnostics]
+                .map(Vec::len)
+                .into_iter()
+                .chain([frame.density.len(), frame.fields.len()])
+                .collect::<Vec<_>>()
+        };
         let nodes = self.curvature.len();
         let fields =
             [&self.metric, &self.normal_velocity].into_iter().chain(&self.density).chain(&self.fields);
-        self.position.len() == nodes && fields.into_iter().all(|field| field.len() == nodes)
+        let whole = self.position.len() == nodes && fields.into_iter().all(|field| field.len() == nodes);
+        nodes >= 2 && whole && counts(self) == counts(other)
     }
 
     /// The same frame on `nodes` nodes at the same parameters s, by trigonometric interpolation.

@@ -10,6 +10,7 @@ mod frames;
 mod gauges;
 mod interpolant;
 mod invariants;
+mod limits;
 mod membrane;
 mod mesh;
 mod mobilities;

@@ -1,10 +1,12 @@
 //! What a run will take: nodes, memory, time; measured on a few trial steps.
 
+use super::limits::frame_bytes;
 use super::observer::Quiet;
 use super::resolution::{fronts, size_above};
-use super::scene::{Frames, Gauge, Nodes, Scene};
+use super::scene::{Gauge, Nodes, Scene};
 use super::setup_error::SetupError;
 use super::simulation::Simulation;
+use crate::geometry::Layout;
 
 /// Prediction of a run. Steps and time are rough: within a factor of three for the shipped scenes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,15 +45,8 @@ pub fn predict(scene: &Scene) -> Result<Prediction, SetupError> {
     let time = simulation.time().max(f64::MIN_POSITIVE);
     let layout = simulation.layout();
     let record = simulation.into_record();
-    let frames = match &scene.output.frames {
-        Frames::Spaced { frames, .. } => *frames,
-        Frames::At { times } => times.len(),
-    } as f64
-        + 1.0;
-    // Curvature, metric, velocity, two positions, the densities and what the scene asks for.
-    let fields = 5 + layout.densities() + record.fields.len();
     let most_nodes = most_nodes(scene, layout.nodes(), record.frames[0].length);
-    let file_bytes = 8.0 * frames * (most_nodes * fields) as f64;
+    let file_bytes = frame_bytes(scene, Layout::new(most_nodes, layout.densities()), record.fields.len());
     let decades = (scene.time.end / time).log10().max(0.0);
     let finer = (1e-5 / scene.accuracy.tolerance).powf(0.2);
     Ok(Prediction {

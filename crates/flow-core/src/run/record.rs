@@ -80,6 +80,12 @@ impl StepLog {
             rejections: Vec::with_capacity(steps),
         }
     }
+
+    /// Number of entries of each column.
+    pub(super) fn lengths(&self) -> [usize; 7] {
+        let Self { time, size, energy, dissipation, order, nodes, rejections } = self;
+        [time.len(), size.len(), energy.len(), dissipation.len(), order.len(), nodes.len(), rejections.len()]
+    }
 }
 
 /// Why a run stopped.

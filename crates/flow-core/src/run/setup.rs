@@ -6,6 +6,7 @@ use super::adaptation::{Adaptation, unresolved_bound};
 use super::diagnostics::Diagnostics;
 use super::energy_terms::{Initial, energy_terms};
 use super::gauges::Gauges;
+use super::limits;
 use super::membrane::Membrane;
 use super::mesh::Mesh;
 use super::mobilities::{density_mobilities, normal_mobility};
@@ -57,6 +58,7 @@ impl Setup {
         let area = area(&state, layout, &curve, grading.clone());
         let initial = Initial { length: initial_length, area };
         let (flow, diagnostics) = flow(scene, initial, mesh.nodes, grading)?;
+        limits::check(scene, layout, diagnostics.field_names().len())?;
         let solver = linear_solver(scene.accuracy.linear_solver);
         let membrane = Membrane::new(flow, solver, curve.turning_number, curve.angle);
         let placement = Placement { angle: curve.angle, centre: curve.centre };

@@ -1,8 +1,8 @@
 //! Why a scene that reads well makes no initial state.
 
 use crate::expression::ExpressionError;
-use crate::geometry::GradingError;
 use crate::geometry::shapes::ShapeError;
+use crate::geometry::{Brief, GradingError};
 
 /// The curve, the densities or the energy of a scene cannot be used together.
 #[derive(Debug, thiserror::Error)]
@@ -20,8 +20,8 @@ pub enum SetupError {
     TurningNumber { found: i32, expected: i32 },
     /// The nodes do not resolve the curve.
     #[error(
-        "`accuracy.nodes` = {nodes} is too few for this curve: sampled there, its ends are {gap:.3e} apart, and \
-         at most {bound:.3e} (1 % of its length) is closed silently; try nodes = {} or \"auto\"", 2 * .nodes
+        "`accuracy.nodes` = {nodes} is too few for this curve: sampled there, its ends are {} apart, and at most {} \
+         (1 % of its length) is closed silently; try nodes = {} or \"auto\"", Brief(*.gap), Brief(*.bound), 2 * .nodes
     )]
     TooFewNodes { nodes: usize, gap: f64, bound: f64 },
     /// The automatic choice found no number of nodes.
@@ -54,6 +54,18 @@ pub enum SetupError {
          is {nodes}; try nodes = 128, or drop the field"
     )]
     TooFewNodesForField { field: &'static str, nodes: usize, fewest: usize },
+    /// The frames would not fit into memory.
+    #[error(
+        "`output`: {frames} frames of {nodes} nodes take {} GB, and {} GB are allowed, since a run keeps them in memory; \
+         ask for fewer frames, nodes or fields", Brief(*.bytes / 1e9), Brief(*.limit / 1e9)
+    )]
+    TooMuchOutput { frames: usize, nodes: usize, bytes: f64, limit: f64 },
+    /// The matrix would not fit into memory.
+    #[error(
+        "`accuracy.linear_solver` = \"dense\" factorises a matrix of {unknowns} rows, and at most {most} are allowed; use \
+         fewer nodes, or \"auto\""
+    )]
+    TooLargeForDense { unknowns: usize, most: usize },
     /// A derivative of an expression is too large.
     #[error("`{key}`: {fault}")]
     Expression { key: &'static str, fault: ExpressionError },

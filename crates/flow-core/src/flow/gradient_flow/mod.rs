@@ -28,6 +28,36 @@ pub struct Rate {
 }
 
 /// A gradient flow on one grid, with all its scratch.
+///
+/// ```
+/// use flow_core::energies::{Bending, EnergyTerm, Length};
+/// use flow_core::flow::{EnergySum, FlowMap, GradientFlow, Identity};
+/// use flow_core::geometry::{Layout, PeriodicGrid, SpectralLayout};
+/// use flow_core::operators::{Derivative, DerivativeFamily};
+/// use std::f64::consts::TAU;
+///
+/// // ∫½κ² dσ + σ|Γ| on 32 nodes, without densities.
+/// let (nodes, tension) = (32, 0.3);
+/// let (layout, mut grid) = (Layout::new(nodes, 0), PeriodicGrid::new(nodes));
+/// let derivative = Derivative::new(DerivativeFamily::Fourier, &grid);
+/// let terms: Vec<Box<dyn EnergyTerm>> = vec![Box::new(Bending::new(1.0)), Box::new(Length::Tension(tension))];
+/// let energy = EnergySum::new(terms, layout, &grid, &derivative);
+/// let map = FlowMap::new(layout, &grid, &derivative);
+/// let mut flow = GradientFlow::new(map, energy, layout, Box::new(Identity), vec![]);
+///
+/// // A circle of radius 2: V = κ³/2 − σκ all along it.
+/// let (radius, spectral) = (2.0, SpectralLayout::new(layout));
+/// let nodal = layout.assemble(&vec![1.0 / radius; nodes], &[], TAU * radius);
+/// let mut state = vec![0.0; spectral.len()];
+/// spectral.encode(&mut grid, &nodal, &mut state);
+/// let mut rate = vec![0.0; spectral.len()];
+/// let at = flow.spectral_rate(&state, &mut rate);
+///
+/// let velocity = 0.5 / radius.powi(3) - tension / radius;
+/// assert!(flow.normal_velocity().iter().all(|v| (v - velocity).abs() < 1e-12));
+/// assert!((at.dissipation - TAU * radius * velocity * velocity).abs() < 1e-12);
+/// assert!((rate[spectral.length_index()] - TAU * velocity).abs() < 1e-12);
+/// ```
 #[derive(Debug)]
 pub struct GradientFlow {
     layout: Layout,

@@ -32,6 +32,8 @@ const POINT: f64 = 1e-13;
 /// Speed, relative to the mean, that is zero wherever it is met, and that explains why cells do not resolve it.
 const STANDSTILL: f64 = 1e-12;
 const NEAR_STANDSTILL: f64 = 1e-4;
+/// Distance in φ from a standstill at which cells are not resolved because of it.
+const NEAR: f64 = 0.1;
 
 impl ArcLength {
     /// Integrates along `curve`.
@@ -52,7 +54,9 @@ impl ArcLength {
                 return fine.finish();
             }
             if cells >= most_cells {
-                fine.check_speed(NEAR_STANDSTILL)?;
+                if resolution.as_ref().err().is_none_or(|error| fine.stops_near(error)) {
+                    fine.check_speed(NEAR_STANDSTILL)?;
+                }
                 resolution?;
                 return Err(ShapeError::Corner { turns: fine.turns(), bound: WHOLE });
             }
@@ -126,6 +130,13 @@ impl Level {
     fn check_speed(&self, bound: f64) -> Result<(), ShapeError> {
         let ((speed, phi), bound) = (self.slowest, bound * self.total_length() / TAU);
         if speed > bound { Ok(()) } else { Err(ShapeError::Stops { phi, speed, bound }) }
+    }
+
+    /// Whether the slowest point explains why cells are not resolved; far from them it does not: they hold a pole.
+    fn stops_near(&self, unresolved: &ShapeError) -> bool {
+        let ShapeError::NotResolved { phi, .. } = unresolved else { return false };
+        let distance = (phi - self.slowest.1).abs();
+        distance.min(TAU - distance) < NEAR
     }
 
     /// Compares every cell with its halves: in the total alone the errors of cells can cancel.

@@ -1,6 +1,7 @@
 //! What is wrong with a curve, where, and what to change.
 
 use crate::expression::ExpressionError;
+use crate::geometry::Brief;
 
 /// Why a shape is not a smooth closed curve that can be resampled.
 ///
@@ -24,19 +25,19 @@ pub enum ShapeError {
     )]
     NotFinite { order: usize, axis: usize, phi: f64, value: f64 },
     /// The curve is one point.
-    #[error("the curve is {length:.3e} long, must exceed {bound:.3e}: x or y must depend on phi")]
+    #[error("the curve is {} long, must exceed {}: x or y must depend on phi, and r must not be 0", Brief(*.length), Brief(*.bound))]
     ZeroLength { length: f64, bound: f64 },
     /// The position or its derivative differs between phi = 0 and phi = 2π.
     #[error(
-        "the {} at phi = 0 and phi = 2π differ by {gap:.3e}, allowed is {bound:.3e}: the curve must close \
-         smoothly; use only functions of phi with period 2π",
-        ["positions", "derivatives by phi"][*.order]
+        "the curve is open: the {} at phi = 0 and phi = 2π differ by {}, allowed is {}; use only functions of phi with \
+         period 2π",
+        ["positions", "derivatives by phi"][*.order], Brief(*.gap), Brief(*.bound)
     )]
     NotClosed { order: usize, gap: f64, bound: f64 },
     /// The first derivative vanishes: a cusp, or a parameter that pauses.
     #[error(
-        "the curve stops at phi = {phi:.6}: |dγ/dphi| = {speed:.3e}, must exceed {bound:.3e}; remove the cusp, \
-         or choose a parameter that does not pause there"
+        "the curve stops at phi = {phi:.6}: |dγ/dphi| = {}, must exceed {}; remove the cusp, or choose a parameter that \
+         does not pause there", Brief(*.speed), Brief(*.bound)
     )]
     Stops { phi: f64, speed: f64, bound: f64 },
     /// The tangent jumps somewhere.
@@ -53,8 +54,8 @@ pub enum ShapeError {
     Clockwise { turning_number: i32 },
     /// The arc length does not converge.
     #[error(
-        "the arc length is not resolved by {cells} cells: near phi = {phi:.6} it still changes by {change:.3e}, \
-         in all allowed is {bound:.3e}; smooth the curve"
+        "the arc length is not resolved by {cells} cells: near phi = {phi:.6} it still changes by {}, in all \
+         allowed is {}; smooth the curve there, or remove a pole of its formula", Brief(*.change), Brief(*.bound)
     )]
     NotResolved { cells: usize, phi: f64, change: f64, bound: f64 },
     /// A list of points too short to be a curve.
@@ -65,8 +66,8 @@ pub enum ShapeError {
     PointNotFinite { point: usize, position: [f64; 2] },
     /// Two neighbours in the list coincide; the last point is a neighbour of the first.
     #[error(
-        "points {first} and {second} are {distance:.3e} apart, must be more than {bound:.3e}; remove one of them \
-         (the curve closes by itself, without repeating its first point)"
+        "points {first} and {second} (from 0) are {} apart, must be more than {}; remove one of them (the curve closes \
+         by itself, without repeating its first point)", Brief(*.distance), Brief(*.bound)
     )]
     RepeatedPoints { first: usize, second: usize, distance: f64, bound: f64 },
     /// The points zigzag, so that the curve through them has no meaningful curvature.

@@ -128,6 +128,10 @@ impl Pair {
 /// # Errors
 /// [`StorageError`] if it cannot be read, is no checkpoint or is damaged.
 pub fn read(path: &Path) -> Result<Checkpoint, StorageError> {
-    let bytes = fs::read(path).map_err(|reason| StorageError::system(path, Operation::Read, reason))?;
-    decode(&bytes, path)
+    let failed = |reason| StorageError::system(path, Operation::Read, reason);
+    // Asked before opening: a pipe would wait for its other end, a device need not end at all.
+    if !fs::metadata(path).map_err(failed)?.is_file() {
+        return Err(StorageError::NotAFile { path: path.to_path_buf() });
+    }
+    decode(&fs::read(path).map_err(failed)?, path)
 }

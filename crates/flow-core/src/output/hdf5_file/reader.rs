@@ -43,7 +43,8 @@ pub fn read(path: &Path) -> Result<Record, StorageError> {
 
 fn check_signature(path: &Path) -> Result<(), StorageError> {
     let failed = |reason| StorageError::system(path, Operation::Read, reason);
-    if fs::metadata(path).map_err(failed)?.is_dir() {
+    // Asked before opening: opening a pipe would wait for its other end.
+    if !fs::metadata(path).map_err(failed)?.is_file() {
         return Err(StorageError::NotAFile { path: path.to_path_buf() });
     }
     let mut start = Vec::new();

@@ -34,6 +34,8 @@ const RESERVED: [&str; 20] = [
     "sigma",
 ];
 const MAX_NAME: usize = 64;
+/// With the curvature they make the 8 fields whose second derivatives the energies have room for.
+pub(super) const MAX_DENSITIES: usize = 7;
 
 /// One density ρ, per unit arc length.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -66,20 +68,23 @@ names! {
 impl Density {
     /// Reads `[[density]]`; names that are in order come second, whether or not the rest is.
     pub(super) fn read_all(entry: Option<Entry<'_>>) -> (Option<Vec<Self>>, Vec<String>) {
-        let Some(entries) = entry.map_or(Some(Vec::new()), |entry| entry.list("a list of tables")) else {
+        let Some(list) = entry else { return (Some(Vec::new()), Vec::new()) };
+        let Some(entries) = list.list("a list of tables") else { return (None, Vec::new()) };
+        if entries.len() > MAX_DENSITIES {
+            let bound = Bound::Between(0.0, MAX_DENSITIES as f64);
+            let remedy = "leave some out; what several densities share can be one";
+            list.fault(Fault::WrongCount { count: entries.len(), bound, remedy });
             return (None, Vec::new());
-        };
+        }
         let mut names = Vec::new();
         let read = |entry: Entry<'_>| Self::read(entry.section()?, &mut names);
         let densities: Vec<Option<Self>> = entries.into_iter().map(read).collect();
-        let names = names.into_iter().flatten().collect();
         (densities.into_iter().collect(), names)
     }
 
-    fn read(mut section: Section<'_>, names: &mut Vec<Option<String>>) -> Option<Self> {
-        let name =
-            section.required("name", "name = \"protein\"").and_then(|entry| checked_name(&entry, names));
-        names.push(name.clone());
+    fn read(mut section: Section<'_>, names: &mut Vec<String>) -> Option<Self> {
+        let name = section.required("name", "name = \"protein\"");
+        let name = name.and_then(|entry| checked_name(&entry, names));
         let initial = section.required("initial", "initial = \"0.5 + 0.1*cos(2*pi*s)\"");
         let initial = initial.and_then(|entry| entry.formula(&["s"]));
         let mobility = section.required("mobility", "mobility = \"diffusion\"");
@@ -99,15 +104,18 @@ impl Density {
     }
 }
 
-fn checked_name(entry: &Entry<'_>, names: &[Option<String>]) -> Option<String> {
+/// A name that is in order; one that was taken already counts among `names`, so that it is one problem and not several.
+fn checked_name(entry: &Entry<'_>, names: &mut Vec<String>) -> Option<String> {
     let value = entry.text()?.to_owned();
     let fault = if RESERVED.contains(&value.as_str()) {
         Fault::ReservedName { value }
     } else if !is_identifier(&value) {
         Fault::NotAnIdentifier { value }
-    } else if let Some(first) = names.iter().position(|name| name.as_ref() == Some(&value)) {
+    } else if let Some(first) = names.iter().position(|name| *name == value) {
+        names.push(value.clone());
         Fault::DuplicateDensity { value, first }
     } else {
+        names.push(value.clone());
         return Some(value);
     };
     entry.fault(fault);

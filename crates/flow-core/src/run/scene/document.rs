@@ -9,17 +9,36 @@ use serde::{Deserialize, Serialize};
 use toml::Spanned;
 use toml::de::{DeTable, Deserializer};
 
+use super::density::MAX_DENSITIES;
 use super::error::{Fault, SceneError};
+use super::keywords::Entries;
 use super::overrides;
 use super::report::Report;
 use super::section::Section;
 use super::shipped::SHIPPED;
+use super::suggest::nearest;
 use super::{Accuracy, Curve, Density, Energy, Flow, Gauge, Output, Time};
 
 /// Longer texts are not scenes.
 pub const MAX_SCENE_BYTES: usize = 1 << 20;
 
 /// A scene that has been checked: everything that a run needs to know.
+///
+/// ```
+/// use flow_core::run::Scene;
+/// use flow_core::run::scene::{Nodes, Shape};
+///
+/// let (_, text) = Scene::shipped().iter().find(|(name, _)| *name == "circle").unwrap();
+/// let changes = [("curve.radius".to_owned(), "2.0".to_owned()), ("accuracy.nodes".to_owned(), "128".to_owned())];
+/// let scene = Scene::parse_with(text, "circle", &changes)?;
+/// assert_eq!(scene.curve.shape, Shape::Circle { radius: 2.0 });
+/// assert_eq!(scene.accuracy.nodes, Nodes::Count(128));
+///
+/// // Written out it has every default, and reads as the same scene.
+/// assert!(scene.to_toml().contains("gauge = \"scaled-arc-length\""));
+/// assert_eq!(Scene::parse(&scene.to_toml(), "again")?.to_toml(), scene.to_toml());
+/// # Ok::<(), flow_core::run::SceneError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[schemars(
     title = "A scene of Curveflow",
@@ -33,7 +52,7 @@ pub struct Scene {
     pub curve: Curve,
     /// Tables `[[density]]`, in the order of the components.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    #[schemars(default)]
+    #[schemars(default, transform = Entries(0, MAX_DENSITIES))]
     pub density: Vec<Density>,
     /// Tables `[energy.*]`.
     pub energy: Energy,
@@ -126,6 +145,12 @@ impl Scene {
     /// The same scene, as if it had been read from `text`.
     pub(crate) fn with_text(self, text: String) -> Self {
         Self { text, ..self }
+    }
+
+    /// The name of the shipped scene that a mistyped `name` may stand for.
+    #[must_use]
+    pub fn shipped_like(name: &str) -> Option<&'static str> {
+        nearest(name, SHIPPED.iter().map(|(shipped, _)| *shipped))
     }
 
     /// Name and text of each scene that comes with the program.

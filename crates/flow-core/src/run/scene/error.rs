@@ -12,7 +12,7 @@ use crate::expression::ExpressionError;
 #[allow(missing_docs)] // each message names its fields
 pub enum SceneError {
     /// The file could not be opened or read.
-    #[error("cannot read the scene `{}`; check the path, or list the shipped scenes with `curveflow scenes`", path.display())]
+    #[error("{}", super::message::unreadable(path))]
     Unreadable { path: PathBuf, source: io::Error },
     /// The file is too large to be a scene.
     #[error(

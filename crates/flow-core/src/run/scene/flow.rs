@@ -6,9 +6,9 @@ use serde::Serialize;
 use super::choice::names;
 use super::error::{Bound, Fault};
 use super::formula::Formula;
-use super::keywords::Within;
+use super::keywords::{Entries, Within};
 use super::section::Section;
-use super::switch::Switch;
+use super::switch::{MAX_SWITCHES, Switch};
 
 /// Table `[flow]`; may be left out.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -28,6 +28,7 @@ pub struct Flow {
     pub stop_on_contact: bool,
     /// Changes of the gauge on the way, in the order of their times.
     #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(transform = Entries(0, MAX_SWITCHES))]
     pub switch: Vec<Switch>,
 }
 

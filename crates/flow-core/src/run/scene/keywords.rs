@@ -40,7 +40,9 @@ pub(super) struct Entries(pub(super) usize, pub(super) usize);
 
 impl Transform for Entries {
     fn transform(&mut self, schema: &mut Schema) {
-        schema.insert("minItems".to_owned(), self.0.into());
+        if self.0 > 0 {
+            schema.insert("minItems".to_owned(), self.0.into());
+        }
         schema.insert("maxItems".to_owned(), self.1.into());
     }
 }

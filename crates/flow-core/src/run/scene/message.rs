@@ -1,7 +1,9 @@
 //! The wording of scene errors: what, where, the value, the bound, one thing to try.
 
 use std::fmt::{self, Display, Formatter};
+use std::path::Path;
 
+use super::document::Scene;
 use super::error::{Bound, Fault, Place, Problem};
 
 /// More problems than this are counted, not shown.
@@ -26,6 +28,17 @@ pub(super) fn plain(text: &str) -> String {
         }
     }
     out
+}
+
+#[cold]
+pub(super) fn unreadable(path: &Path) -> String {
+    let name = plain(&path.display().to_string());
+    let meant =
+        Scene::shipped_like(&name).map(|shipped| format!("did you mean the shipped scene `{shipped}`? "));
+    let meant = meant.unwrap_or_default();
+    format!(
+        "cannot read the scene `{name}`; {meant}check the path, or list the shipped scenes with `curveflow scenes`"
+    )
 }
 
 #[cold]

@@ -56,6 +56,6 @@ pub use error::{Bound, Fault, Place, Problem, SceneError};
 pub use flow::{Flow, Gauge, NormalMobility};
 pub use formula::Formula;
 pub use output::{Frames, Output, OutputField, Spacing};
-pub use points::PointsError;
+pub use points::{PointsError, parse as parse_points};
 pub use switch::Switch;
 pub use time::Time;

@@ -110,10 +110,9 @@ fn element<'t, 'i>(
     list: &str,
     index: &str,
 ) -> Result<&'t mut DeValue<'i>, (String, &'static str)> {
-    let count = array.len();
     let found = index.parse().ok().and_then(|index: usize| array.get_mut(index));
     let missing = || {
-        let reason = format!("`{list}` has {count} entries and none of them is `{index}`");
+        let reason = format!("`{list}` has no entry `{index}`");
         (reason, "count from 0, or give the name of a density of the scene")
     };
     found.map(Spanned::get_mut).ok_or_else(missing)

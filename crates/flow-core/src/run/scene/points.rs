@@ -15,9 +15,12 @@ pub enum PointsError {
     /// The file could not be read as text.
     #[error("{0}; paths start from the folder of the scene")]
     Unreadable(#[from] io::Error),
-    /// The file is too large, or not an ordinary file.
-    #[error("it is not an ordinary file of at most {limit} bytes; thin the points out")]
-    NotAFile { limit: u64 },
+    /// A folder, a device or a pipe.
+    #[error("it is not a plain file; give the name of a text file")]
+    NotAFile,
+    /// The file is too large.
+    #[error("it is larger than {limit} bytes; thin the points out")]
+    TooLarge { limit: u64 },
     /// A line does not hold two finite numbers.
     #[error(
         "line {line} (`{text}`) must hold two finite numbers, x and y, with a space or a comma between them"
@@ -27,20 +30,23 @@ pub enum PointsError {
 
 /// Reads points: `x y` or `x, y` on each line; `#` starts a comment.
 pub(super) fn read(path: &Path) -> Result<Vec<[f64; 2]>, PointsError> {
-    let not_a_file = PointsError::NotAFile { limit: MAX_BYTES };
     // Asked before opening: opening a pipe would wait for its other end.
     if !std::fs::metadata(path)?.is_file() {
-        return Err(not_a_file);
+        return Err(PointsError::NotAFile);
     }
     let mut text = String::new();
     File::open(path)?.take(MAX_BYTES + 1).read_to_string(&mut text)?;
     if text.len() as u64 > MAX_BYTES {
-        return Err(not_a_file);
+        return Err(PointsError::TooLarge { limit: MAX_BYTES });
     }
     parse(&text)
 }
 
-fn parse(text: &str) -> Result<Vec<[f64; 2]>, PointsError> {
+/// Points from the text of such a file: `x y` or `x, y` on each line; `#` starts a comment.
+///
+/// # Errors
+/// [`PointsError::NotAPoint`] for the first line that does not hold two finite numbers.
+pub fn parse(text: &str) -> Result<Vec<[f64; 2]>, PointsError> {
     let content = |line: &str| line.split('#').next().unwrap_or("").trim().len();
     let lines = text.trim_start_matches('\u{feff}').lines().enumerate().filter(|(_, line)| content(line) > 0);
     let parsed = lines.map(|(index, line)| {

@@ -10,6 +10,9 @@ use super::formula::Formula;
 use super::keywords::Within;
 use super::section::Section;
 
+/// More than this are more likely a slip than a wish.
+pub(super) const MAX_SWITCHES: usize = 100;
+
 /// A change of the gauge; the curve is the same, its nodes lie elsewhere.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Switch {
@@ -27,7 +30,15 @@ pub struct Switch {
 impl Switch {
     /// Reads all tables; `end` is the end time, if that is known.
     pub(super) fn read_all(entry: Option<Entry<'_>>, end: Option<f64>) -> Vec<Self> {
-        let Some(entries) = entry.and_then(|entry| entry.list("a list of tables")) else { return Vec::new() };
+        let Some(list) = entry else { return Vec::new() };
+        let entries = list.list("a list of tables").unwrap_or_default();
+        if entries.len() > MAX_SWITCHES {
+            let bound = Bound::Between(0.0, MAX_SWITCHES as f64);
+            let remedy =
+                "keep those that the solution needs: each switch adds an error and restarts the method";
+            list.fault(Fault::WrongCount { count: entries.len(), bound, remedy });
+            return Vec::new();
+        }
         let mut switches: Vec<Self> = Vec::new();
         for entry in entries {
             let previous = switches.last().map(|switch| switch.time);

@@ -32,6 +32,26 @@ use crate::run::setup_error::SetupError;
 pub const ENERGY_TOLERANCE_SHARE: f64 = 0.01;
 
 /// A scene under way.
+///
+/// ```
+/// use flow_core::run::{Quiet, Scene, Simulation};
+///
+/// let (_, text) = Scene::shipped().iter().find(|(name, _)| *name == "circle").unwrap();
+/// let mut simulation = Simulation::new(&Scene::parse(text, "circle")?)?;
+///
+/// // One step at a time, up to a time, or to the end.
+/// simulation.step(&mut Quiet);
+/// simulation.run_until(0.5, u64::MAX, &mut Quiet);
+/// assert_eq!(simulation.time(), 0.5);
+/// let halfway = simulation.frame();
+/// while simulation.step(&mut Quiet) {}
+///
+/// let record = simulation.into_record();
+/// let last = record.frames.last().unwrap();
+/// assert!(last.energy < halfway.energy);
+/// assert!(last.energy_balance.abs() < 1e-6 * last.energy);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct Simulation {
     membrane: Membrane,

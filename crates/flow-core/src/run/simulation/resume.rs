@@ -72,6 +72,12 @@ pub enum ResumeError {
     },
 }
 
+/// Whether times are finite and increase.
+fn is_sequence(times: impl Iterator<Item = f64> + Clone) -> bool {
+    times.clone().all(f64::is_finite)
+        && times.clone().zip(times.skip(1)).all(|(before, after)| before < after)
+}
+
 impl Simulation {
     /// What it takes to go on from the last accepted state. A run that was interrupted goes on from there.
     #[must_use]
@@ -143,10 +149,15 @@ impl Simulation {
             return Err(foreign("the frames"));
         }
         frames.truncate(memory.scheduled_frames);
-        if frames.iter().any(|frame| !frame.is_consistent()) {
-            return Err(foreign("the number of nodes of the frames"));
+        let first = simulation.record.frames.first();
+        if !frames.iter().all(|frame| first.is_some_and(|first| frame.is_shaped_like(first))) {
+            return Err(foreign("the number of values of the frames"));
         }
-        if steps.time.len() as u64 != memory.counters.steps {
+        if !is_sequence(frames.iter().map(|frame| frame.time)) {
+            return Err(foreign("the times of the frames"));
+        }
+        let lengths = steps.lengths();
+        if lengths.iter().any(|length| *length as u64 != memory.counters.steps) {
             return Err(foreign("the log of steps"));
         }
         let stepper = Bdf::resume(&simulation.membrane, memory.integration, simulation.tolerance);

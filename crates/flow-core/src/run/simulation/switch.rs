@@ -15,19 +15,20 @@ impl Simulation {
         let clock = Instant::now();
         let state = self.integration.stepper().state();
         let Some(switched) = self.gauges.switch(&mut self.membrane, state) else { return };
-        let Switched { membrane, diagnostics, regraded } = match switched {
+        let Switched { mut membrane, diagnostics, regraded } = match switched {
             Ok(switched) => switched,
             Err(error) => {
                 return self.stop(StopReason::Failed(format!("at t = {:.6e}: {error}", report.time)));
             }
         };
-        (self.membrane, self.diagnostics) = (membrane, diagnostics);
-        self.scratch = regraded.state;
-        let finish = self.membrane.finish(report.time, &mut self.scratch);
+        let mut state = regraded.state;
+        let finish = membrane.finish(report.time, &mut state);
         let Finish::Good { energy, integral_rates, .. } = finish else {
             let message = format!("at t = {:.6e}: the state is not finite in the next gauge", report.time);
-            return self.stop(StopReason::Failed(message));
+            return self.stop(StopReason::Failed(message)); // with the last state in the old gauge
         };
+        (self.membrane, self.diagnostics) = (membrane, diagnostics);
+        self.scratch = state;
         self.start.remap_error += energy - report.energy;
         let mut counters = *self.integration.counters();
         counters.remaps += 1;

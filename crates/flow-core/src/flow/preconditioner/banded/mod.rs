@@ -26,6 +26,8 @@ use crate::operators::{CyclicBanded, FactorisationError};
 pub const MOST_NODES: usize = 1024;
 /// Graded nodes are crowded somewhere: fewer of them would miss what they crowd for.
 const MOST_GRADED_NODES: usize = 8192;
+/// F fields have a band of half-width 4F − 1, which needs three times as many rows: 12 nodes for any F.
+const FEWEST_NODES: usize = 12;
 
 /// A banded approximate inverse acting on spectra.
 pub trait Banded: Debug + Send {
@@ -44,6 +46,9 @@ pub fn build(flow: &GradientFlow) -> Option<Box<dyn Banded>> {
         return None;
     }
     let (nodes, grading) = (flow.layout().nodes(), flow.grading().map(Arc::as_ref));
+    if nodes < FEWEST_NODES {
+        return None;
+    }
     if flow.layout().metric().is_some() {
         return match flow.layout().fields() {
             1 => Some(Box::new(MaterialPart::<1, 3>::new(nodes))),

@@ -1,0 +1,41 @@
+//! What a run may ask for: more is refused before the memory is asked for.
+
+use super::scene::{Frames, LinearSolver, Scene};
+use super::setup_error::SetupError;
+use crate::geometry::Layout;
+
+/// Largest memory of all frames, in bytes.
+const MOST_FRAME_BYTES: f64 = 16e9;
+/// Most rows of a dense matrix: 128 MB, and minutes for each factorisation.
+const MOST_DENSE: usize = 4096;
+/// Curvature, metric, velocity and two coordinates.
+const FIELDS: usize = 5;
+
+/// Bytes of all frames of `scene`, with `extra` fields besides those that every frame holds.
+pub(super) fn frame_bytes(scene: &Scene, layout: Layout, extra: usize) -> f64 {
+    8.0 * frames(scene) as f64 * (layout.nodes() * (FIELDS + layout.densities() + extra)) as f64
+}
+
+/// Checks what `scene` asks for on the nodes of `layout`.
+///
+/// # Errors
+/// [`SetupError::TooMuchOutput`] or [`SetupError::TooLargeForDense`].
+pub(super) fn check(scene: &Scene, layout: Layout, extra: usize) -> Result<(), SetupError> {
+    let unknowns = layout.len();
+    if scene.accuracy.linear_solver == LinearSolver::Dense && unknowns > MOST_DENSE {
+        return Err(SetupError::TooLargeForDense { unknowns, most: MOST_DENSE });
+    }
+    let (bytes, limit) = (frame_bytes(scene, layout, extra), MOST_FRAME_BYTES);
+    if bytes > limit {
+        return Err(SetupError::TooMuchOutput { frames: frames(scene), nodes: layout.nodes(), bytes, limit });
+    }
+    Ok(())
+}
+
+/// Frames that are saved at most, the first and the last included.
+fn frames(scene: &Scene) -> usize {
+    match &scene.output.frames {
+        Frames::Spaced { frames, .. } => frames + 1,
+        Frames::At { times } => times.len() + 2,
+    }
+}
