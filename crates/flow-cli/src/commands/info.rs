@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use flow_core::output::hdf5_file;
-use flow_core::run::{Record, Rejections, StopReason};
+use flow_core::run::{Provenance, Record, Rejections, StopReason};
 use serde_json::{Map, Value, json};
 
 use crate::error::CliError;
@@ -85,6 +85,10 @@ fn summary(record: &Record) -> Vec<(String, Value)> {
     row("rejections_energy_rise", json!(energy_rise));
     row("rejections_not_finite", json!(not_finite));
     row("integration_seconds", number(counters.integration_seconds));
+    let Provenance { version, commit, machine, .. } = &record.provenance;
+    row("curveflow_version", json!(version));
+    row("commit", json!(commit.as_deref().unwrap_or("unknown")));
+    row("machine", json!(machine));
     rows
 }
 

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::spelling::ours;
+
 /// Why an expression could not be read or differentiated.
 ///
 /// A `column` counts characters of the text from 1.
@@ -32,6 +34,9 @@ pub enum ExpressionError {
     /// A number that a 64-bit float cannot hold.
     #[error("column {column}: the number `{literal}` is outside the range 1e-308 to 1e308; rescale it")]
     NumberOutOfRange { column: usize, literal: String },
+    /// A power as other languages write it.
+    #[error("column {column}: a power is written `^`, as in `kappa^2`, not `**`")]
+    DoubleStar { column: usize },
     /// A name that is neither a variable nor a function.
     #[error("column {column}: unknown name `{name}`{}; allowed: {}", DidYouMean(suggestion.as_deref()), allowed.join(", "))]
     UnknownName { name: String, column: usize, suggestion: Option<String>, allowed: Vec<String> },
@@ -54,7 +59,8 @@ impl fmt::Display for DidYouMean<'_> {
 pub(super) fn unknown_name(name: &str, column: usize, allowed: &[&str]) -> ExpressionError {
     let nearest = allowed.iter().map(|candidate| (edit_distance(name, candidate), *candidate)).min();
     let tolerated = if name.chars().count() <= 3 { 1 } else { 2 };
-    let suggestion = nearest.filter(|(distance, _)| *distance <= tolerated).map(|(_, near)| near.to_owned());
+    let near = nearest.filter(|(distance, _)| *distance <= tolerated).map(|(_, near)| near.to_owned());
+    let suggestion = ours(name, allowed).or(near);
     let allowed = allowed.iter().map(|&name| name.to_owned()).collect();
     ExpressionError::UnknownName { name: name.to_owned(), column, suggestion, allowed }
 }

@@ -81,7 +81,11 @@ impl<'a> Parser<'a> {
                 Token::Sign('/') => Operator::Divide,
                 _ => return Ok(left),
             };
+            let star = self.start;
             self.advance()?;
+            if operator == Operator::Multiply && self.token == Token::Sign('*') && self.start == star + 1 {
+                return Err(ExpressionError::DoubleStar { column: self.lexer.column(star) });
+            }
             let right = self.signed()?;
             left = self.graph.binary(operator, left, right)?;
         }
@@ -143,6 +147,7 @@ impl<'a> Parser<'a> {
         } else {
             let functions = NAMED_FUNCTIONS.iter().map(|(name, _)| *name);
             let allowed: Vec<&str> = self.variables.iter().copied().chain(["pi"]).chain(functions).collect();
+            let name = self.lexer.dotted(self.start);
             return Err(unknown_name(name, column, &allowed));
         };
         self.advance()?;

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::provenance::Provenance;
+use super::scene::{Scene, SceneError, Shape};
 use crate::integrator::{Counters, Rejections};
 
 /// One saved state. Fields hold one value per node, `n` of them.
@@ -145,6 +147,8 @@ pub struct Record {
     pub counters: Counters,
     /// Why the run stopped.
     pub stop_reason: StopReason,
+    /// What made the record.
+    pub provenance: Provenance,
 }
 
 impl Record {
@@ -153,4 +157,29 @@ impl Record {
     pub fn nodes(&self) -> usize {
         self.frames.last().map_or(0, |frame| frame.curvature.len())
     }
+
+    /// The scene of the run, to run it again: as given, except that points which were read from a file stand in it.
+    ///
+    /// # Errors
+    /// [`SceneError`] if the text is not a scene of this version.
+    pub fn to_scene(&self) -> Result<Scene, SceneError> {
+        const NAME: &str = "the scene of the result";
+        if !names_a_file(&self.scene) {
+            return Scene::parse(&self.scene, NAME);
+        }
+        let resolved = Scene::parse(&self.resolved_scene, NAME)?;
+        let points = match &resolved.curve.shape {
+            Shape::Points { points } => format!("{points:?}"),
+            _ => return Ok(resolved),
+        };
+        Scene::parse_with(&self.scene, NAME, &[("curve.points".to_owned(), points)])
+    }
+}
+
+/// Whether the points of the curve are in another file.
+fn names_a_file(scene: &str) -> bool {
+    let table: Option<toml::Table> = scene.parse().ok();
+    table.is_some_and(|table| {
+        table.get("curve").and_then(|curve| curve.get("points")).is_some_and(toml::Value::is_str)
+    })
 }

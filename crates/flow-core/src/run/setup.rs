@@ -33,6 +33,8 @@ pub struct Setup {
     pub closure_defect: f64,
     /// Changes of the gauge to come.
     pub switches: Switches,
+    /// What the energies refer to.
+    pub(super) initial: Initial,
 }
 
 /// Largest gap, relative to the length, that is closed on input without complaint.
@@ -59,7 +61,7 @@ impl Setup {
         let membrane = Membrane::new(flow, solver, curve.turning_number, curve.angle);
         let placement = Placement { angle: curve.angle, centre: curve.centre };
         let switches = Switches::new(scene, initial, nodes)?;
-        Ok(Self { membrane, state, placement, diagnostics, closure_defect, switches })
+        Ok(Self { membrane, state, placement, diagnostics, closure_defect, switches, initial })
     }
 }
 

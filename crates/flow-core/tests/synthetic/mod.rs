@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use flow_core::run::{Counters, Frame, Record, Rejections, StepLog, StopReason};
+use flow_core::run::{Counters, Frame, Provenance, Record, Rejections, StepLog, StopReason};
 
 /// A record of `frames` states with `nodes` nodes; without densities if `densities` is empty.
 pub fn record(frames: usize, nodes: usize, densities: &[&str]) -> Record {
@@ -44,6 +44,7 @@ pub fn record(frames: usize, nodes: usize, densities: &[&str]) -> Record {
             integration_seconds: 0.25,
         },
         stop_reason: StopReason::Equilibrium,
+        provenance: Provenance::here(),
     }
 }
 

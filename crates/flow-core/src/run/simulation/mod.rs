@@ -159,6 +159,7 @@ impl Simulation {
             steps,
             counters: self.counters_with_time(),
             stop_reason: self.stopped.clone().unwrap_or(StopReason::Interrupted),
+            provenance: self.record.provenance.clone(),
             title: self.record.title.clone(),
             scene: self.record.scene.clone(),
             resolved_scene: self.record.resolved_scene.clone(),

@@ -7,6 +7,7 @@ use crate::integrator::{Adaptive, AdaptiveOptions, Bdf, Counters, Finish, INTEGR
 use crate::run::equilibrium::Equilibrium;
 use crate::run::frames::{Start, frame};
 use crate::run::membrane::Membrane;
+use crate::run::provenance::Provenance;
 use crate::run::record::{Record, StepLog, StopReason};
 use crate::run::scene::Scene;
 use crate::run::schedule::frame_times;
@@ -21,7 +22,7 @@ impl Simulation {
     /// # Errors
     /// [`SetupError`] if the scene makes no initial state.
     pub fn new(scene: &Scene) -> Result<Self, SetupError> {
-        let Setup { mut membrane, mut state, placement, mut diagnostics, closure_defect, switches } =
+        let Setup { mut membrane, mut state, placement, mut diagnostics, closure_defect, switches, .. } =
             Setup::new(scene)?;
         let finish = membrane.finish(0.0, &mut state);
         let Finish::Good { energy, dissipation, integral_rates } = finish else {
@@ -66,6 +67,7 @@ impl Simulation {
             steps: StepLog::with_room(STEP_ROOM),
             counters,
             stop_reason: StopReason::EndTime,
+            provenance: Provenance::here(),
         };
         Ok(Self {
             equilibrium: scene

@@ -55,6 +55,7 @@ pub(super) fn halfway(record: &Record) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::super::provenance::Provenance;
     use super::super::super::record::{Frame, StepLog};
     use super::*;
     use crate::integrator::Counters;
@@ -77,6 +78,7 @@ mod tests {
             },
             counters: Counters::default(),
             stop_reason: StopReason::EndTime,
+            provenance: Provenance::here(),
         }
     }
 
