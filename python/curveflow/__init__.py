@@ -9,9 +9,11 @@ True
 from importlib.metadata import version as _version
 
 from .errors import (
+    ArrayError,
     BugError,
     CurveflowError,
     LadderError,
+    MissingExtraError,
     SceneError,
     SetupError,
     StorageError,
@@ -43,6 +45,17 @@ from .model import (
     Trillium,
     schema,
 )
+from .operators import (
+    Geometry,
+    Rates,
+    energy,
+    flow_map,
+    geometry,
+    helmholtz,
+    incompressibility,
+    normal_force,
+)
+from .provenance import Provenance
 from .result import Result, open
 from .running import Progress, run
 from .scene import Scene, scenes
@@ -54,6 +67,7 @@ __all__ = [
     "Adhesion",
     "Agents",
     "Area",
+    "ArrayError",
     "Bending",
     "BugError",
     "Circle",
@@ -62,16 +76,20 @@ __all__ = [
     "Ellipse",
     "FigureEight",
     "Flow",
+    "Geometry",
     "LadderError",
     "Length",
     "Local",
     "Membrane",
+    "MissingExtraError",
     "Output",
     "Packing",
     "Parametric",
     "Points",
     "Polar",
     "Progress",
+    "Provenance",
+    "Rates",
     "Reference",
     "Regularization",
     "Result",
@@ -88,6 +106,12 @@ __all__ = [
     "Tradeoff",
     "TradeoffError",
     "Trillium",
+    "energy",
+    "flow_map",
+    "geometry",
+    "helmholtz",
+    "incompressibility",
+    "normal_force",
     "open",
     "run",
     "scenes",

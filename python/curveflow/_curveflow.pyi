@@ -7,7 +7,29 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Record", "Scene", "Simulation", "System", "Tradeoff", "read", "run", "schema", "shipped", "tradeoff"]
+__all__ = [
+    "Record",
+    "Scene",
+    "Simulation",
+    "System",
+    "Tradeoff",
+    "energy",
+    "file_bytes",
+    "flow_map",
+    "geometry",
+    "helmholtz",
+    "incompressibility",
+    "normal_force",
+    "picture",
+    "provenance",
+    "read",
+    "run",
+    "schema",
+    "shipped",
+    "tradeoff",
+]
+
+_Array = NDArray[np.float64]
 
 @final
 class Scene:
@@ -17,6 +39,8 @@ class Scene:
     def parse(text: str, source_name: str, changes: list[tuple[str, str]]) -> Scene: ...
     @staticmethod
     def parse_written(text: str, source_name: str) -> Scene: ...
+    @staticmethod
+    def of_record(record: Record) -> Scene: ...
     @property
     def source_name(self) -> str: ...
     @property
@@ -123,6 +147,24 @@ class Tradeoff:
     def counts(self, name: str) -> NDArray[np.uint64]: ...
     def errors(self, number: int) -> NDArray[np.float64]: ...
 
+def file_bytes(record: Record) -> bytes: ...
+def picture(record: Record, path: str | os.PathLike[str], replace: bool) -> None: ...
+def provenance(record: Record) -> tuple[str, str | None, str, float, str]: ...
+def geometry(
+    position: _Array,
+) -> tuple[_Array, _Array, _Array, _Array, _Array, float, float, int, float]: ...
+def flow_map(
+    curvature: _Array,
+    metric: _Array,
+    normal_velocity: _Array,
+    density: list[_Array],
+    gauge: str,
+    derivative: str,
+) -> tuple[_Array, _Array, list[_Array], _Array]: ...
+def helmholtz(curvature: _Array, metric: _Array, right_hand_side: _Array, derivative: str) -> _Array: ...
+def incompressibility(curvature: _Array, metric: _Array, force: _Array, derivative: str) -> _Array: ...
+def energy(scene: Scene, curvature: _Array, metric: _Array, density: list[_Array]) -> float: ...
+def normal_force(scene: Scene, curvature: _Array, metric: _Array, density: list[_Array]) -> _Array: ...
 def shipped() -> list[tuple[str, str]]: ...
 def read(path: str | os.PathLike[str]) -> Record: ...
 def run(

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::provenance::Provenance;
-use super::scene::{Scene, SceneError, Shape};
+use super::scene::{Curve, Scene, SceneError, Shape};
 use crate::integrator::{Counters, Rejections};
 
 /// One saved state. Fields hold one value per node, `n` of them.
@@ -167,12 +167,10 @@ impl Record {
         if !names_a_file(&self.scene) {
             return Scene::parse(&self.scene, NAME);
         }
-        let resolved = Scene::parse(&self.resolved_scene, NAME)?;
-        let points = match &resolved.curve.shape {
-            Shape::Points { points } => format!("{points:?}"),
-            _ => return Ok(resolved),
-        };
-        Scene::parse_with(&self.scene, NAME, &[("curve.points".to_owned(), points)])
+        let Curve { shape, turning_number } = Scene::parse(&self.resolved_scene, NAME)?.curve;
+        let Shape::Points { points } = shape else { return Scene::parse(&self.scene, NAME) };
+        let curve = format!("{{ shape = \"points\", turning_number = {turning_number}, points = {points:?} }}");
+        Scene::parse_with(&self.scene, NAME, &[("curve".to_owned(), curve)])
     }
 }
 
@@ -180,6 +178,6 @@ impl Record {
 fn names_a_file(scene: &str) -> bool {
     let table: Option<toml::Table> = scene.parse().ok();
     table.is_some_and(|table| {
-        table.get("curve").and_then(|curve| curve.get("points")).is_some_and(toml::Value::is_str)
+        table.get("curve").is_some_and(|curve| curve.get("file").is_some())
     })
 }
