@@ -6,8 +6,7 @@
 True
 """
 
-from importlib.metadata import version as _version
-
+from ._curveflow import VERSION as _VERSION
 from .errors import (
     ArrayError,
     BugError,
@@ -119,4 +118,4 @@ __all__ = [
     "tradeoff",
 ]
 
-__version__ = _version("curveflow")
+__version__ = _VERSION

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    "VERSION",
     "Record",
     "Scene",
     "Simulation",
@@ -30,6 +31,7 @@ __all__ = [
 ]
 
 _Array = NDArray[np.float64]
+VERSION: str
 
 @final
 class Scene:

@@ -22,6 +22,7 @@ Image: TypeAlias = NDArray[np.uint8]
 _FASTEST_GIF = 50.0
 # How long a GIF rests at its end before it starts again, in milliseconds.
 _REST = 1000
+_NEARLY_WHITE = 245
 
 
 @contextmanager
@@ -79,9 +80,9 @@ def _gif(pillow: Any, path: Path, images: Iterator[Image], count: int, fps: floa
 
 
 def _with_white(image: Any) -> Any:
-    """Make the lightest colour of a palette white, which the mean of its neighbours is not."""
+    """Make the palette's means of nearly white colours white."""
     colours = np.array(image.getpalette()).reshape(-1, 3)
-    colours[np.argmax(colours.sum(axis=1))] = 255
+    colours[colours.min(axis=1) >= _NEARLY_WHITE] = 255
     image.putpalette(colours.ravel().tolist())
     return image
 

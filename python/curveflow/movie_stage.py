@@ -50,8 +50,9 @@ class Stage:
     def image(self, frame: int) -> Image:
         """Draw a frame; shape (height, width, 3)."""
         self._move(frame)
-        self._canvas.draw()
-        return np.asarray(self._canvas.buffer_rgba())[:, :, :3].copy()
+        self._canvas.draw()  # type: ignore[no-untyped-call] # as of matplotlib 3.10
+        image = np.asarray(self._canvas.buffer_rgba())  # type: ignore[no-untyped-call]
+        return image[:, :, :3].copy()
 
     def _move(self, frame: int) -> None:
         points, value = closed(self._result.position[frame]), closed(self._values[frame])

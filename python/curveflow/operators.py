@@ -118,11 +118,9 @@ def flow_map(
         ArrayError: arrays differ in length, are not finite, or the metric does not fit the gauge.
     """
     names, values = _densities(density)
-    rates = _curveflow.flow_map(
-        *_nodal(curvature=curvature, metric=metric, normal_velocity=normal_velocity), values, gauge, derivative
-    )
-    by_name = MappingProxyType(dict(zip(names, rates[2], strict=True)))
-    return Rates(rates[0], rates[1], by_name, rates[3])
+    kappa, g, v = _nodal(curvature=curvature, metric=metric, normal_velocity=normal_velocity)
+    kappa_t, g_t, density_t, w = _curveflow.flow_map(kappa, g, v, values, gauge, derivative)
+    return Rates(kappa_t, g_t, MappingProxyType(dict(zip(names, density_t, strict=True))), w)
 
 
 def helmholtz(
@@ -145,8 +143,8 @@ def helmholtz(
     Raises:
         ArrayError: arrays differ in length, are not finite, or H is singular.
     """
-    arrays = _nodal(curvature=curvature, metric=metric, right_hand_side=right_hand_side)
-    return _curveflow.helmholtz(*arrays, derivative)
+    kappa, g, f = _nodal(curvature=curvature, metric=metric, right_hand_side=right_hand_side)
+    return _curveflow.helmholtz(kappa, g, f, derivative)
 
 
 def incompressibility(
@@ -168,7 +166,8 @@ def incompressibility(
     Raises:
         ArrayError: arrays differ in length, are not finite, or H of :func:`helmholtz` is singular.
     """
-    return _curveflow.incompressibility(*_nodal(curvature=curvature, metric=metric, force=force), derivative)
+    kappa, g, f = _nodal(curvature=curvature, metric=metric, force=force)
+    return _curveflow.incompressibility(kappa, g, f, derivative)
 
 
 def energy(
@@ -197,7 +196,8 @@ def energy(
         ArrayError: arrays differ in length, are not finite, or a density is missing.
         SetupError: the initial curve of the scene cannot be used on so many nodes.
     """
-    return _curveflow.energy(scene._native, *_nodal(curvature=curvature, metric=metric), _of_scene(scene, density))
+    kappa, g = _nodal(curvature=curvature, metric=metric)
+    return _curveflow.energy(scene._native, kappa, g, _of_scene(scene, density))
 
 
 def normal_force(
@@ -221,8 +221,8 @@ def normal_force(
         ArrayError: arrays differ in length, are not finite, or a density is missing.
         SetupError: the initial curve of the scene cannot be used on so many nodes.
     """
-    arrays = _nodal(curvature=curvature, metric=metric)
-    return _curveflow.normal_force(scene._native, *arrays, _of_scene(scene, density))
+    kappa, g = _nodal(curvature=curvature, metric=metric)
+    return _curveflow.normal_force(scene._native, kappa, g, _of_scene(scene, density))
 
 
 def _contiguous(name: str, given: ArrayLike) -> Array:

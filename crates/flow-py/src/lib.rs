@@ -19,6 +19,10 @@ mod watcher;
 /// The extension module.
 #[pyo3::pymodule]
 mod _curveflow {
+    /// Version of the package.
+    #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
+
     #[pymodule_export]
     use super::exports::{file_bytes, picture, provenance};
     #[pymodule_export]

@@ -169,7 +169,8 @@ impl Record {
         }
         let Curve { shape, turning_number } = Scene::parse(&self.resolved_scene, NAME)?.curve;
         let Shape::Points { points } = shape else { return Scene::parse(&self.scene, NAME) };
-        let curve = format!("{{ shape = \"points\", turning_number = {turning_number}, points = {points:?} }}");
+        let curve =
+            format!("{{ shape = \"points\", turning_number = {turning_number}, points = {points:?} }}");
         Scene::parse_with(&self.scene, NAME, &[("curve".to_owned(), curve)])
     }
 }
@@ -177,7 +178,5 @@ impl Record {
 /// Whether the points of the curve are in another file.
 fn names_a_file(scene: &str) -> bool {
     let table: Option<toml::Table> = scene.parse().ok();
-    table.is_some_and(|table| {
-        table.get("curve").is_some_and(|curve| curve.get("file").is_some())
-    })
+    table.is_some_and(|table| table.get("curve").is_some_and(|curve| curve.get("file").is_some()))
 }
