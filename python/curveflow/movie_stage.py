@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection
+from matplotlib.colors import Normalize, SymLogNorm
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 _DPI = 100
 # Percent of the values at either end that may lie outside the scale of colours, where they would take most of it.
 _OUTLIERS = 0.5
+# Range of a usual image, as a part of that of all, below which the scale is logarithmic down to the least part of its ends.
+_FADES, _LEAST = 0.05, 1e-4
 _BLUE, _GREY = "#0072B2", "0.75"
 
 
@@ -69,9 +72,8 @@ class Stage:
         axes.plot(*start.T, color="0.6", linewidth=1, linestyle="--")
         axes.set_title("dashed: initial", loc="right", fontsize="small", color="0.4")
         values = self._values[shown]
-        low, high = _limits(values)
-        lines = LineCollection([], linewidths=height / 130, capstyle="round", cmap="viridis")
-        lines.set_clim(low, high)
+        scale, extend = _scale(values)
+        lines = LineCollection([], linewidths=height / 130, capstyle="round", cmap="viridis", norm=scale)
         axes.add_collection(lines, autolim=False)
         points = self._result.position[[0, *shown]].reshape(-1, 2)
         middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
@@ -80,8 +82,6 @@ class Stage:
         axes.set_ylim(middle[1] - reach, middle[1] + reach)
         axes.set_aspect("equal", adjustable="box")
         axes.set(xlabel="$x$", ylabel="$y$")
-        beyond = {(False, False): "neither", (True, False): "min", (False, True): "max", (True, True): "both"}
-        extend = beyond[bool(values.min() < low), bool(values.max() > high)]
         self._figure.colorbar(lines, ax=axes, label=label, shrink=0.85, extend=extend)
         return lines
 
@@ -95,8 +95,8 @@ class Stage:
         axes.set(xlabel="time $t$", ylabel="energy")
 
 
-def _limits(values: Array) -> tuple[float, float]:
-    """Return the ends of the scale of colours: those of the values, unless outliers would take most of it."""
+def _scale(values: Array) -> tuple[Normalize, str]:
+    """Return the scale of colours for values (frame, node), and at which ends values lie outside it."""
     lowest, highest = float(values.min()), float(values.max())
     low, high = (float(end) for end in np.percentile(values, [_OUTLIERS, 100 - _OUTLIERS]))
     if high - low > 0.5 * (highest - lowest):
@@ -104,5 +104,11 @@ def _limits(values: Array) -> tuple[float, float]:
     size = max(abs(low), abs(high))
     if high - low <= 1e-6 * size:  # colours would show nothing but rounding
         margin = 0.01 * size or 1.0
-        return low - margin, high + margin
-    return low, high
+        return Normalize(low - margin, high + margin), "neither"
+    ends = {(False, False): "neither", (True, False): "min", (False, True): "max", (True, True): "both"}
+    extend = ends[lowest < low, highest > high]
+    usual = float(np.median(np.ptp(values, axis=1)))
+    if low < 0 < high and usual < _FADES * (high - low):
+        # Velocities fade by decades: on a linear scale most images would show one colour.
+        return SymLogNorm(max(usual, _LEAST * size), vmin=-size, vmax=size), extend
+    return Normalize(low, high), extend

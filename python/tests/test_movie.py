@@ -109,3 +109,19 @@ except cf.MissingExtraError as error:
         done = subprocess.run(command, capture_output=True, text=True, check=True)
         assert f'needs {package}: pip install "curveflow[movie]"' in done.stdout
     assert not list(tmp_path.iterdir())
+
+
+def test_the_scale_of_colours_suits_the_whole_movie(membrane: cf.Result):
+    from matplotlib.colors import SymLogNorm
+
+    from curveflow.movie_stage import _scale
+
+    norm, extend = _scale(membrane.density["protein"])
+    assert (norm.vmin, norm.vmax, extend) == (
+        membrane.density["protein"].min(), membrane.density["protein"].max(), "neither",
+    )
+    # The velocity falls by ten decades on the way to rest.
+    norm, extend = _scale(membrane.normal_velocity)
+    assert isinstance(norm, SymLogNorm) and norm.vmin == -norm.vmax and extend == "both"
+    norm, _ = _scale(np.ones((3, 8)))
+    assert norm.vmin < 1 < norm.vmax

@@ -67,11 +67,11 @@ fn the_same_scene_with_the_same_changes_gives_the_same_record() {
 #[test]
 fn points_of_another_file_are_not_needed_again() {
     let folder = Folder::new("from-points");
-    let points: String = (0..40)
+    let points: Vec<String> = (0..40)
         .map(|i| std::f64::consts::TAU * f64::from(i) / 40.0)
-        .map(|phi| format!("{:?} {:?}\n", 1.5 * phi.cos(), phi.sin()))
+        .map(|phi| format!("{:?} {:?}", 1.5 * phi.cos(), phi.sin()))
         .collect();
-    fs::write(folder.0.join("points.txt"), points).unwrap();
+    fs::write(folder.0.join("points.txt"), points.join("\n")).unwrap();
     let scene =
         "curve = { shape = 'points', file = 'points.txt' }\nenergy.bending.rigidity = 1.0\ntime.end = 0.01\n";
     fs::write(folder.0.join("scene.toml"), scene).unwrap();
