@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Literal, TypeAlias
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,11 +19,6 @@ from . import _curveflow
 from .errors import ArrayError
 from .frames import Array
 from .scene import Scene
-
-Derivative: TypeAlias = Literal["fourier", "central-2", "central-4", "central-6", "central-8"]
-"""Family of discrete derivatives, as ``accuracy.derivative`` of a scene."""
-Gauge: TypeAlias = Literal["scaled-arc-length", "graded", "co-moving"]
-"""Rule for the tangential velocity, as ``flow.gauge`` of a scene."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -97,8 +92,8 @@ def flow_map(
     normal_velocity: ArrayLike,
     density: Mapping[str, ArrayLike] | None = None,
     *,
-    gauge: Gauge = "scaled-arc-length",
-    derivative: Derivative = "fourier",
+    gauge: Literal["scaled-arc-length", "graded", "co-moving"] = "scaled-arc-length",
+    derivative: Literal["fourier", "central-2", "central-4", "central-6", "central-8"] = "fourier",
 ) -> Rates:
     """How a curve and its densities change under a normal velocity, the gauge included (F1), (F2), (F19).
 
@@ -124,7 +119,11 @@ def flow_map(
 
 
 def helmholtz(
-    curvature: ArrayLike, metric: ArrayLike, right_hand_side: ArrayLike, *, derivative: Derivative = "fourier"
+    curvature: ArrayLike,
+    metric: ArrayLike,
+    right_hand_side: ArrayLike,
+    *,
+    derivative: Literal["fourier", "central-2", "central-4", "central-6", "central-8"] = "fourier",
 ) -> Array:
     """Solve H u = f, H the Laplacian by arc length with a minus sign plus the square of the curvature (O5), (O7).
 
@@ -148,7 +147,11 @@ def helmholtz(
 
 
 def incompressibility(
-    curvature: ArrayLike, metric: ArrayLike, force: ArrayLike, *, derivative: Derivative = "fourier"
+    curvature: ArrayLike,
+    metric: ArrayLike,
+    force: ArrayLike,
+    *,
+    derivative: Literal["fourier", "central-2", "central-4", "central-6", "central-8"] = "fourier",
 ) -> Array:
     """Apply the incompressibility operator: the normal velocity that a force makes where every piece keeps its length (F8).
 

@@ -138,8 +138,8 @@ def closed(values: Array) -> Array:
 
 def _arc_length(metric: Array) -> Array:
     """Arc length of the nodes from the first one, once around."""
-    closed = closed(metric)
-    return np.append(0.0, np.cumsum(0.5 * (closed[:-1] + closed[1:]) / len(metric)))
+    around = closed(metric)
+    return np.append(0.0, np.cumsum(0.5 * (around[:-1] + around[1:]) / len(metric)))
 
 
 def plain(text: str) -> str:

@@ -240,3 +240,34 @@ fn check_field(field: &'static str, values: &[f64], nodes: usize) -> Result<(), 
         None => Ok(()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+
+    /// Mode `mode` of a circle of radius 1 under V = cos: κ_t = (n² − 1)V, 𝓘V = n²/(n² + 1)V, H⁻¹V = V/(n² + 1).
+    #[test]
+    fn modes_of_a_circle_are_exact() {
+        let (nodes, mode) = (128, 3.0_f64);
+        let (kappa, metric) = (vec![1.0; nodes], vec![TAU; nodes]);
+        let wave: Vec<f64> = (0..nodes).map(|i| (mode * TAU * i as f64 / nodes as f64).cos()).collect();
+        let close = |a: &[f64], factor: f64| a.iter().zip(&wave).all(|(a, b)| (a - factor * b).abs() < 1e-9);
+        for (gauge, stretch) in
+            [(NodalGauge::ScaledArcLength, 0.0), (NodalGauge::Graded, 0.0), (NodalGauge::CoMoving, TAU)]
+        {
+            let family = DerivativeFamily::Fourier;
+            let mut curve = NodalCurve::new(&kappa, &metric, &[&kappa], family, gauge).unwrap();
+            let rates = curve.flow_map(&wave).unwrap();
+            assert!(close(&rates.curvature, mode * mode - 1.0), "{gauge:?}");
+            assert!(close(&rates.metric, stretch), "{gauge:?}");
+            // What is carried thins out where the curve grows, wherever the nodes go.
+            assert!(close(&rates.density[0], -1.0), "{gauge:?}");
+            if gauge != NodalGauge::CoMoving {
+                assert!(close(&curve.helmholtz(&wave).unwrap(), 1.0 / (mode * mode + 1.0)));
+                assert!(close(&curve.incompressible(&wave).unwrap(), mode * mode / (mode * mode + 1.0)));
+            }
+        }
+    }
+}
