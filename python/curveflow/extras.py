@@ -15,5 +15,6 @@ def need(module: str, purpose: str, extra: str) -> Any:
     try:
         return import_module(module)
     except ImportError as error:
-        package = module.partition(".")[0].replace("_", "-")
+        name = module.partition(".")[0]
+        package = {"PIL": "Pillow"}.get(name, name.replace("_", "-"))
         raise MissingExtraError(f'{purpose} needs {package}: pip install "curveflow[{extra}]"') from error

@@ -103,7 +103,7 @@ except cf.MissingExtraError as error:
     print(error)
 """
     for module, package, name in (
-        ("matplotlib", "matplotlib", "a.gif"), ("PIL", "PIL", "a.gif"), ("imageio_ffmpeg", "imageio-ffmpeg", "a.mp4"),
+        ("matplotlib", "matplotlib", "a.gif"), ("PIL", "Pillow", "a.gif"), ("imageio_ffmpeg", "imageio-ffmpeg", "a.mp4"),
     ):
         command = [sys.executable, "-c", code, module, str(tmp_path / name)]
         done = subprocess.run(command, capture_output=True, text=True, check=True)
