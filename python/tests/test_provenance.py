@@ -75,6 +75,10 @@ def test_points_from_a_file_stand_in_the_result(tmp_path: Path):
     opened = cf.open(tmp_path / "out.h5")
     assert fingerprint(cf.run(opened.scene)) == fingerprint(result)
     assert isinstance(opened.scene.curve, cf.Points)
+    simulation = cf.Simulation(opened.scene)
+    simulation.step()
+    simulation.checkpoint(tmp_path / "checkpoint")
+    assert cf.Simulation.resume(tmp_path / "checkpoint").scene == opened.scene
     rough = opened.scene.with_values({"accuracy.tolerance": 1e-3})
     assert cf.run(rough).success
 

@@ -247,7 +247,7 @@ mod tests {
 
     use super::*;
 
-    /// Mode `mode` of a circle of radius 1 under V = cos: κ_t = (n² − 1)V, 𝓘V = n²/(n² + 1)V, H⁻¹V = V/(n² + 1).
+    /// Mode `mode` of a circle of radius 1 under V = cos: `κ_t` = (n² − 1)V, 𝓘V = n²/(n² + 1)V, H⁻¹V = V/(n² + 1).
     #[test]
     fn modes_of_a_circle_are_exact() {
         let (nodes, mode) = (128, 3.0_f64);
