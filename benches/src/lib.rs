@@ -5,3 +5,4 @@
 pub mod measure;
 pub mod report;
 pub mod rivals;
+pub mod stripped;

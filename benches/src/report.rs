@@ -143,15 +143,19 @@ pub fn iterations_table(cases: &[(Case, Vec<[usize; SOLVERS.len()]>)], time: f64
     text
 }
 
-const BEGIN: &str = "<!-- tables: begin -->";
-const END: &str = "<!-- tables: end -->";
-
-/// `document` with the text between its markers replaced by `tables`; none if it has no markers.
+/// `document` with the text between its markers `tables` replaced by `tables`; none if it has no markers.
 #[must_use]
 pub fn replace_tables(document: &str, tables: &str) -> Option<String> {
-    let begin = document.find(BEGIN)? + BEGIN.len();
-    let end = document.find(END).filter(|end| *end >= begin)?;
-    Some(format!("{}\n{tables}\n{}", &document[..begin], &document[end..]))
+    replace_between(document, "tables", tables)
+}
+
+/// `document` with the text between its markers `name` replaced by `text`; none if it has no such markers.
+#[must_use]
+pub fn replace_between(document: &str, name: &str, text: &str) -> Option<String> {
+    let (begin, end) = (format!("<!-- {name}: begin -->"), format!("<!-- {name}: end -->"));
+    let begin = document.find(&begin)? + begin.len();
+    let end = document.find(&end).filter(|end| *end >= begin)?;
+    Some(format!("{}\n{text}\n{}", &document[..begin], &document[end..]))
 }
 
 #[cfg(test)]
@@ -160,9 +164,9 @@ mod tests {
 
     #[test]
     fn tables_go_between_the_markers() {
-        let document = format!("a\n{BEGIN}\nold\n{END}\nb\n");
-        let replaced = replace_tables(&document, "new").unwrap();
-        assert_eq!(replaced, format!("a\n{BEGIN}\nnew\n{END}\nb\n"));
+        let document = |text: &str| format!("a\n<!-- tables: begin -->\n{text}\n<!-- tables: end -->\nb\n");
+        assert_eq!(replace_tables(&document("old"), "new"), Some(document("new")));
+        assert_eq!(replace_between(&document("old"), "other", "new"), None);
         assert_eq!(replace_tables("no markers", "new"), None);
     }
 }

@@ -60,6 +60,7 @@ from .running import Progress, run
 from .scene import Scene, scenes
 from .simulation import Simulation, State
 from .system import System
+from .why_slow import WhySlow
 
 __all__ = [
     "Accuracy",
@@ -105,6 +106,7 @@ __all__ = [
     "Tradeoff",
     "TradeoffError",
     "Trillium",
+    "WhySlow",
     "energy",
     "flow_map",
     "geometry",

@@ -12,6 +12,7 @@ from . import _curveflow
 from .frames import Array, Frames
 from .provenance import Provenance
 from .scene import Scene
+from .why_slow import WhySlow
 
 if TYPE_CHECKING:
     import xarray
@@ -77,8 +78,16 @@ class Result(Frames):
 
     @cached_property
     def stats(self) -> Mapping[str, int | float]:
-        """Counters of work by name (steps, rejections by cause, right-hand sides, …) and ``integration_seconds``."""
+        """Counters of work by name (steps, rejections by cause, right-hand sides, …), and seconds of wall time.
+
+        ``integration_seconds`` are those of all steps, also before a restart; ``seconds_start``, ``seconds_solves``, …, by
+        what they were spent on, are described in :meth:`why_slow`.
+        """
         return MappingProxyType(self._record.counters())
+
+    def why_slow(self) -> WhySlow:
+        """Where the time went, what limits the run, and one thing to try; print it to read it."""
+        return WhySlow._of(self._record)
 
     def plot(self, figure: Figure | None = None) -> Figure:
         """Draw the final curve, its state, and energy and length over time, as ``curveflow plot`` does.
@@ -177,6 +186,10 @@ class Result(Frames):
     def __repr__(self) -> str:
         frames, nodes = self._record.shape
         return f"<Result {self.title!r}: {self.status} at t = {self.time[-1]:.6g}, {frames} frames, {nodes} nodes>"
+
+    def _repr_html_(self) -> str:
+        """The run at a glance, for notebooks: final curve, how it ended, the laws kept, its cost."""
+        return self._record.card()
 
 
 def open(path: str | os.PathLike[str]) -> Result:

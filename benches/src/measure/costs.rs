@@ -83,7 +83,7 @@ pub fn costs(nodes: usize) -> Costs {
 }
 
 /// The least time of one call over several batches: the machine may be busy with others.
-fn seconds(mut call: impl FnMut()) -> f64 {
+pub(super) fn seconds(mut call: impl FnMut()) -> f64 {
     let mut best = f64::INFINITY;
     for _ in 0..BATCHES {
         let (clock, mut calls) = (Instant::now(), 0);

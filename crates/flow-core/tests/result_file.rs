@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use flow_core::output::{StorageError, hdf5_file};
-use flow_core::run::{Record, StepLog, StopReason};
+use flow_core::run::{Record, Seconds, StepLog, StopReason};
 
 /// A fresh folder, removed at the end of the test.
 struct Folder(PathBuf);
@@ -46,11 +46,27 @@ fn what_is_written_is_read_back() {
     failed.stop_reason = StopReason::Failed("κ is not finite at node 3, t = 1.0e-2".to_owned());
     failed.energy_terms.clear();
     failed.frames[0].energy_terms.clear();
+    failed.seconds.evaluations.terms.clear();
     failed.steps = StepLog::default();
     failed.frames[0].energy = f64::INFINITY;
     round_trip(&failed, &path);
     failed.frames.clear();
     round_trip(&failed, &path);
+    round_trip(&Record { seconds: Seconds::default(), ..synthetic::record(2, 16, &[]) }, &path);
+}
+
+#[test]
+fn the_file_knows_how_long_it_took_to_make() {
+    let folder = Folder::new("timed");
+    let path = folder.file("out.h5");
+    let mut record = synthetic::record(7, 64, &["protein"]);
+    let before = record.seconds.output;
+    hdf5_file::write_timed(&mut record, &path, false).unwrap();
+    let written = hdf5_file::read(&path).unwrap();
+    let (made, all) = (written.seconds.output, record.seconds.output);
+    assert!(before < made && made < all, "{before}, {made}, {all}");
+    record.seconds.output = made;
+    assert!(record == written);
 }
 
 #[test]
@@ -64,6 +80,9 @@ fn nothing_is_written_where_nothing_may_be() {
     assert!(matches!(hdf5_file::write(&record, &missing, false), Err(StorageError::FolderMissing { .. })));
     let mut ragged = record.clone();
     ragged.frames[1].curvature.pop();
+    assert!(matches!(hdf5_file::write(&ragged, &path, true), Err(StorageError::Ragged { .. })));
+    let mut ragged = record.clone();
+    ragged.seconds.evaluations.terms.pop();
     assert!(matches!(hdf5_file::write(&ragged, &path, true), Err(StorageError::Ragged { .. })));
     assert_eq!(fs::read_to_string(&path).unwrap(), "kept");
     assert_eq!(fs::read_dir(&folder.0).unwrap().count(), 1);

@@ -195,7 +195,34 @@ impl Record {
         stats.set_item("solves", counters.solves)?;
         stats.set_item("remaps", counters.remaps)?;
         stats.set_item("integration_seconds", counters.integration_seconds)?;
+        for (name, seconds) in self.core.seconds.by_activity() {
+            stats.set_item(format!("seconds_{name}"), seconds)?;
+        }
         Ok(stats)
+    }
+
+    /// What limits the run: its name, a sentence, one thing to try, all as text, the Krylov iterations of a solve, and the
+    /// seconds by activity and by part of the evaluations, largest first.
+    fn why_slow(&self) -> WhySlow {
+        let why = core::WhySlow::of(&self.core);
+        let text = why.to_string();
+        let seconds = |shares: Vec<core::Share>| {
+            shares.into_iter().map(|share| (share.name, share.seconds)).collect::<Vec<_>>()
+        };
+        (
+            why.limit.name(),
+            why.sentence,
+            why.advice,
+            text,
+            why.krylov_iterations_per_solve,
+            seconds(why.activities),
+            seconds(why.evaluations),
+        )
+    }
+
+    /// The run at a glance, as HTML.
+    fn card(&self) -> String {
+        page::card(&self.core)
     }
 
     /// Writes a result file.
@@ -233,6 +260,9 @@ impl Record {
         values
     }
 }
+
+/// What [`Record::why_slow`] tells.
+type WhySlow = (&'static str, String, String, String, f64, Vec<(String, f64)>, Vec<(String, f64)>);
 
 /// Reads one count.
 type Count = fn(&Rejections) -> u64;

@@ -44,10 +44,10 @@ impl Conduct {
         let limit = self.max_wall.map(|limit| clock + limit);
         let mut reporter = Reporter::new(self.quiet, stop_flag()?, limit);
         let mut saving = Saving { pair, interval: self.checkpoint };
-        let record = run_saving(simulation, &mut reporter, &mut saving)?;
+        let mut record = run_saving(simulation, &mut reporter, &mut saving)?;
         reporter.finish();
         let output = saving.pair.result();
-        hdf5_file::write(&record, output, replace)?;
+        hdf5_file::write_timed(&mut record, output, replace)?;
         if record.stop_reason != StopReason::Interrupted {
             saving.pair.remove()?;
         }

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use flow_core::output::hdf5_file;
-use flow_core::run::{Provenance, Record, Rejections, StopReason};
+use flow_core::run::{Provenance, Record, Rejections, Share, StopReason, WhySlow};
 use serde_json::{Map, Value, json};
 
 use crate::error::CliError;
@@ -24,12 +24,36 @@ pub struct Args {
 pub fn execute(args: &Args) -> Result<(), CliError> {
     let record = hdf5_file::read(&args.out)?;
     let rows = summary(&record);
-    print::data(&if args.json { as_json(rows) } else { as_table(&rows) })
+    let why = WhySlow::of(&record);
+    print::data(&if args.json {
+        as_json(rows.into_iter().chain(time_rows(&why)).collect())
+    } else {
+        format!("{}\n\n{why}", as_table(&rows))
+    })
 }
 
 /// The summary of a record as JSON.
 pub fn json(record: &Record) -> String {
-    as_json(summary(record))
+    as_json(summary(record).into_iter().chain(time_rows(&WhySlow::of(record))).collect())
+}
+
+/// Where the time went and why, for programs.
+fn time_rows(why: &WhySlow) -> Vec<(String, Value)> {
+    let seconds = |shares: &[Share]| {
+        let entries = shares.iter().map(|share| (share.name.clone(), number(share.seconds)));
+        Value::Object(entries.collect())
+    };
+    [
+        ("krylov_iterations_per_solve", number(why.krylov_iterations_per_solve)),
+        ("seconds_total", number(why.total)),
+        ("seconds", seconds(&why.activities)),
+        ("evaluation_seconds", seconds(&why.evaluations)),
+        ("limit", json!(why.limit.name())),
+        ("why_slow", json!(why.sentence)),
+        ("advice", json!(why.advice)),
+    ]
+    .map(|(key, value)| (key.to_owned(), value))
+    .into()
 }
 
 /// Key and value of every line, in order.

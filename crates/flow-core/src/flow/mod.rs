@@ -22,7 +22,7 @@ pub use density_mobility::{Carried, DensityMobility, Diffusion, Exchange, Weight
 pub use energy_sum::{EnergySum, IntrinsicGradient};
 pub use excess_density::ExcessDensity;
 pub use flow_map::FlowMap;
-pub use gradient_flow::{GradientFlow, Rate};
+pub use gradient_flow::{EvaluationCost, GradientFlow, PartCosts, Rate};
 pub use nodal_curve::{NodalCurve, NodalError, NodalGauge, NodalRates};
 pub(crate) use nodal_curve::{check, nodal_state};
 pub use normal_mobility::{

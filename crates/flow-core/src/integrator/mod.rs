@@ -9,6 +9,7 @@ mod integrals;
 mod memory;
 mod newton;
 mod statistics;
+mod stopwatch;
 
 pub use adaptive::{Adaptive, AdaptiveOptions, IntegrationError, StepReport};
 pub use bdf::Bdf;
@@ -19,6 +20,7 @@ pub use integrals::Integrals;
 pub use memory::Memory;
 pub use newton::{Factorisation, NewtonKrylov, NewtonOutcome, Stage};
 pub use statistics::{Counters, Rejections};
+pub use stopwatch::{Activity, Clocked, Stopwatch};
 
 /// A system dy/dt = f(y) with an implicit operator I − γJ, J ≈ f′.
 pub trait Problem {

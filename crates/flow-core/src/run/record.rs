@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::provenance::Provenance;
 use super::scene::{Curve, Scene, SceneError, Shape};
+use super::seconds::Seconds;
 use crate::integrator::{Counters, Rejections};
 
 /// One saved state. Fields hold one value per node, `n` of them.
@@ -145,6 +146,8 @@ pub struct Record {
     pub steps: StepLog,
     /// Work done and time spent.
     pub counters: Counters,
+    /// Where the time went.
+    pub seconds: Seconds,
     /// Why the run stopped.
     pub stop_reason: StopReason,
     /// What made the record.

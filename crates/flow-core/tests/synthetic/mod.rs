@@ -3,7 +3,9 @@
 
 use std::f64::consts::TAU;
 
-use flow_core::run::{Counters, Frame, Provenance, Record, Rejections, StepLog, StopReason};
+use flow_core::run::{
+    Counters, EvaluationSeconds, Frame, Provenance, Record, Rejections, Seconds, StepLog, StopReason,
+};
 
 /// A record of `frames` states with `nodes` nodes; without densities if `densities` is empty.
 pub fn record(frames: usize, nodes: usize, densities: &[&str]) -> Record {
@@ -43,8 +45,34 @@ pub fn record(frames: usize, nodes: usize, densities: &[&str]) -> Record {
             remaps: 11,
             integration_seconds: 0.25,
         },
+        seconds: seconds(),
         stop_reason: StopReason::Equilibrium,
         provenance: Provenance::here(),
+    }
+}
+
+/// A second or two for everything.
+fn seconds() -> Seconds {
+    Seconds {
+        start: 0.5,
+        right_hand_sides: 1.0,
+        linearisations: 1.25,
+        jacobian_products: 2.0,
+        factorisations: 0.75,
+        solves: 1.5,
+        krylov: 0.25,
+        checks: 0.75,
+        step_control: 0.125,
+        remaps: 0.0625,
+        frames: 0.375,
+        observers: 0.03125,
+        output: 1.0,
+        evaluations: EvaluationSeconds {
+            terms: vec![2.0, 0.125],
+            normal_mobility: 0.25,
+            density_mobilities: 0.5,
+            flow_map: 2.125,
+        },
     }
 }
 

@@ -3,6 +3,7 @@
 //! With pointwise fields φ and length L, `𝓕_h` = L⟨e⟩ + Σ c/(2L) ⟨|D₊φ|²⟩ + L⟨e′⟩ + Φ(L), ⟨·⟩ the mean over the
 //! nodes; on graded nodes w enters as a weight. See `THEORY.md`, eqs. (D3)–(D5) and (D9).
 
+mod alone;
 mod by_term;
 
 use super::curve_fields::CurveFields;
@@ -16,6 +17,8 @@ use crate::geometry::vectors::{
 };
 use crate::geometry::{Complex64, Layout, PeriodicGrid, SpectralLayout};
 use crate::operators::Derivative;
+
+pub use alone::TermCost;
 
 /// Gradient of the energy, as the flow map takes it.
 #[derive(Clone, Debug)]

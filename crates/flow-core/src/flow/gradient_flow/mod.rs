@@ -1,5 +1,6 @@
 //! The right-hand side −`𝓚(X)∇𝓕_h` and the implicit operator −𝓚 Hess `𝓕_h`. See `THEORY.md`, eqs. (F6) and (F7).
 
+mod part_costs;
 mod turning;
 
 use std::sync::Arc;
@@ -11,6 +12,8 @@ use super::flow_map::FlowMap;
 use super::normal_mobility::{MobilityError, NormalMobility};
 use crate::geometry::{Complex64, Grading, Layout, PeriodicGrid, SpectralLayout};
 use crate::operators::Derivative;
+
+pub use part_costs::{EvaluationCost, PartCosts};
 
 /// What an evaluation of the flow tells besides the rates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -245,9 +248,12 @@ impl GradientFlow {
     }
 
     fn dissipation(&mut self) -> f64 {
-        let length = self.current.length();
-        let mut sum = length * self.current.mean_of_product(&self.force, &self.velocity);
-        let modes = self.spectrum.len();
+        let of_the_curve = self.current.mean_of_product(&self.force, &self.velocity);
+        self.add_density_dissipation(self.current.length() * of_the_curve)
+    }
+
+    fn add_density_dissipation(&mut self, mut sum: f64) -> f64 {
+        let (length, modes) = (self.current.length(), self.spectrum.len());
         for (density, mobility) in self.density_mobilities.iter_mut().enumerate() {
             if let Some(metric) = self.current.moving_metric() {
                 mobility.follow(metric);

@@ -57,6 +57,9 @@ impl FourierSymbol {
                 means[a * fields + b] = if a == b { mean(a, a).max(0.0) } else { mean(a, b) };
             }
         }
+        if fields == 1 {
+            return self.set_single(flow, gamma, first, length);
+        }
         for (mode, symbol) in self.laplacian.iter().enumerate().skip(first) {
             for a in 0..fields {
                 let mobility = gamma * mobility_symbol(flow, a, *symbol, length);
@@ -77,19 +80,34 @@ impl FourierSymbol {
         }
     }
 
+    /// As [`FourierSymbol::set`] for the curvature alone: its blocks are numbers, inverted in whole vector registers.
+    fn set_single(&mut self, flow: &GradientFlow, gamma: f64, first: usize, length: f64) {
+        let (mean, coefficient) = (self.means[0], flow.energy_terms().stiffness()[0]);
+        let (inverse, laplacian) = (&mut self.inverse[first..], &self.laplacian[first..]);
+        for (mobility, symbol) in inverse.iter_mut().zip(laplacian) {
+            *mobility = gamma * mobility_symbol(flow, 0, *symbol, length);
+        }
+        for (inverse, symbol) in inverse.iter_mut().zip(laplacian) {
+            let mobility = *inverse;
+            let stiffness = coefficient * symbol / (length * length);
+            let value = 1.0 / (mobility * mean + (1.0 + mobility * stiffness));
+            *inverse = if value.is_finite() { value } else { 1.0 };
+        }
+    }
+
     /// Applies the inverse to the modes from `first` on.
     pub fn apply(&mut self, spectra: &mut [Complex64], first: usize) {
         let (fields, modes) = (self.fields, self.modes);
         match fields {
             1 => {
-                for (value, inverse) in spectra.iter_mut().zip(&self.inverse).skip(first) {
+                for (value, inverse) in spectra[first..].iter_mut().zip(&self.inverse[first..]) {
                     *value *= *inverse;
                 }
             }
             2 => {
                 let (kappa, rho) = spectra.split_at_mut(modes);
-                let blocks = self.inverse.chunks_exact(4);
-                for ((kappa, rho), block) in kappa.iter_mut().zip(rho).zip(blocks).skip(first) {
+                let blocks = self.inverse[4 * first..].chunks_exact(4);
+                for ((kappa, rho), block) in kappa[first..].iter_mut().zip(&mut rho[first..]).zip(blocks) {
                     let (a, b) = (*kappa, *rho);
                     *kappa = a * block[0] + b * block[1];
                     *rho = a * block[2] + b * block[3];

@@ -13,13 +13,18 @@ use crate::geometry::vectors::multiply;
 pub struct ResidualWeights {
     weights: Vec<f64>,
     inverses: Vec<f64>,
+    /// Whether any of them is not one: no symbol is stiff without a cost of slopes.
+    any: bool,
+    /// γσ of one field, by mode.
+    stiffness: Vec<f64>,
 }
 
 impl ResidualWeights {
     /// Weights of one.
     #[must_use]
     pub fn new(layout: SpectralLayout) -> Self {
-        Self { weights: vec![1.0; layout.len()], inverses: vec![1.0; layout.len()] }
+        let ones = vec![1.0; layout.len()];
+        Self { weights: ones.clone(), inverses: ones, any: false, stiffness: vec![0.0; layout.modes()] }
     }
 
     /// Takes the symbols at the frozen state of `flow`, without the variable coefficients.
@@ -28,27 +33,39 @@ impl ResidualWeights {
         for place in 0..flow.layout().state_fields() {
             // The metric moves as stiffly as the curvature.
             let field = if Some(place) == flow.layout().metric() { 0 } else { place };
-            let stiffness = flow.energy_terms().stiffness()[field] / (length * length);
-            let start = layout.field(place).start;
-            for mode in 0..layout.modes() {
+            if flow.energy_terms().stiffness()[field] == 0.0 {
+                continue;
+            }
+            self.any = true;
+            let coefficient = flow.energy_terms().stiffness()[field] / (length * length);
+            for (mode, stiffness) in self.stiffness.iter_mut().enumerate() {
                 let laplacian = flow.grid_and_derivative().1.minus_laplacian()[mode];
-                let rate = mobility_symbol(flow, field, laplacian, length) * stiffness * laplacian;
-                let inverse = (1.0 + gamma * rate).sqrt().sqrt();
-                for entry in [start + 2 * mode, start + 2 * mode + 1] {
-                    self.inverses[entry] = inverse;
-                    self.weights[entry] = 1.0 / inverse;
-                }
+                *stiffness =
+                    gamma * (mobility_symbol(flow, field, laplacian, length) * coefficient * laplacian);
+            }
+            let entries = layout.field(place);
+            let (inverses, _) = self.inverses[entries.clone()].as_chunks_mut::<2>();
+            let (weights, _) = self.weights[entries].as_chunks_mut::<2>();
+            // A loop of its own, so that the roots are taken in whole vector registers.
+            for ((inverse, weight), stiffness) in inverses.iter_mut().zip(weights).zip(&self.stiffness) {
+                let root = (1.0 + stiffness).sqrt().sqrt();
+                *inverse = [root; 2];
+                *weight = [1.0 / root; 2];
             }
         }
     }
 
     /// Multiplies `r` by the weights.
     pub fn weigh(&self, r: &mut [f64]) {
-        multiply(r, &self.weights);
+        if self.any {
+            multiply(r, &self.weights);
+        }
     }
 
     /// Divides `r` by the weights.
     pub fn unweigh(&self, r: &mut [f64]) {
-        multiply(r, &self.inverses);
+        if self.any {
+            multiply(r, &self.inverses);
+        }
     }
 }

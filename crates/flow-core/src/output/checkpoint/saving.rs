@@ -29,16 +29,23 @@ pub fn run_saving(
     saving: &mut Saving,
 ) -> Result<Record, StorageError> {
     let (mut saved, mut interval) = (Instant::now(), saving.interval);
+    let mut output = Duration::ZERO;
     while simulation.step(observer) {
         if saved.elapsed() >= interval {
             let clock = Instant::now();
             saving.pair.write(&simulation)?;
-            interval = saving.interval.max(SHARE * clock.elapsed());
+            let taken = clock.elapsed();
+            output += taken;
+            interval = saving.interval.max(SHARE * taken);
             saved = Instant::now();
         }
     }
     if simulation.stop_reason() == Some(&StopReason::Interrupted) {
+        let clock = Instant::now();
         saving.pair.write(&simulation)?;
+        output += clock.elapsed();
     }
-    Ok(simulation.into_record())
+    let mut record = simulation.into_record();
+    record.seconds.output += output.as_secs_f64();
+    Ok(record)
 }

@@ -4,8 +4,9 @@ mod dataset;
 mod layout;
 mod provenance;
 mod reader;
+mod seconds;
 mod writer;
 
 pub use layout::CONVENTIONS;
 pub use reader::read;
-pub use writer::{to_bytes, write};
+pub use writer::{to_bytes, write, write_timed};

@@ -1,7 +1,7 @@
 //! The attributes of a result file: which scene, which program, which machine, how much work, why it stopped.
 
 use hdf5_metno::types::VarLenUnicode;
-use hdf5_metno::{File, H5Type};
+use hdf5_metno::{File, H5Type, Location};
 
 use super::dataset::{building, text, write_text};
 use super::layout::{CAUSES, CONVENTIONS, COUNTERS};
@@ -62,8 +62,9 @@ fn texts(record: &Record) -> [(&'static str, &str); 5] {
     ]
 }
 
-fn write_number<T: H5Type>(file: &File, name: &str, value: &T) -> Result<(), StorageError> {
-    let attribute = file.new_attr::<T>().create(name);
+/// Writes a number as an attribute of `owner`.
+pub(super) fn write_number<T: H5Type>(owner: &Location, name: &str, value: &T) -> Result<(), StorageError> {
+    let attribute = owner.new_attr::<T>().create(name);
     attribute.and_then(|attribute| attribute.write_scalar(value)).map_err(building(name))
 }
 

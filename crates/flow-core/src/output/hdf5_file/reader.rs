@@ -11,8 +11,9 @@ use super::layout::{
     CAUSES, CONVENTIONS, COUNTERS, FRAME_VALUES, NAMED_FIELDS, NAMED_VALUES, NODAL_FIELDS, STEP_VALUES,
 };
 use super::provenance::{checksum, rejections_name};
+use super::seconds;
 use crate::output::{Operation, StorageError};
-use crate::run::{Counters, Frame, Provenance, Record, Rejections, StepLog, StopReason};
+use crate::run::{Counters, Frame, Provenance, Record, Rejections, Seconds, StepLog, StopReason};
 
 /// The first bytes of every HDF5 file.
 const SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
@@ -72,12 +73,14 @@ impl Content {
             frames: Vec::new(),
             steps: self.steps()?,
             counters: self.counters()?,
+            seconds: Seconds::default(),
             stop_reason: self.stop_reason()?,
             provenance: self.provenance()?,
         };
         if self.number::<u64>("text_checksum")? != checksum(&record) {
             return Err(("the texts in its attributes".to_owned(), "the checksum differs".into()));
         }
+        record.seconds = seconds::read(&self.file, &record.energy_terms)?;
         record.frames = self.frames(&record)?;
         Ok(record)
     }

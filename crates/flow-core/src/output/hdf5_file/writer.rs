@@ -2,14 +2,15 @@
 
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
 
 use hdf5_metno::{File, file::LibraryVersion};
 
 use super::dataset::{Axis, Meaning, axis, building, dataset, labelled_axis, write_text};
 use super::layout::{CAUSES, FRAME_VALUES, NAMED_FIELDS, NAMED_VALUES, NODAL_FIELDS, STEP_VALUES};
-use super::provenance;
+use super::{provenance, seconds};
 use crate::output::{StorageError, atomic_file};
-use crate::run::{Frame, Record};
+use crate::run::{Frame, Record, Seconds};
 
 /// Writes `record` to `path`; an existing file is replaced only if `replace`.
 /// # Errors
@@ -18,10 +19,27 @@ pub fn write(record: &Record, path: &Path, replace: bool) -> Result<(), StorageE
     atomic_file::write(path, &to_bytes(record)?, replace)
 }
 
+/// As [`write()`], and adds the time that it takes to the output of the record: in the file up to where its bytes leave for
+/// the disk, in `record` all.
+/// # Errors
+/// As for [`write()`].
+pub fn write_timed(record: &mut Record, path: &Path, replace: bool) -> Result<(), StorageError> {
+    let (clock, before) = (Instant::now(), record.seconds.output);
+    let so_far = || before + clock.elapsed().as_secs_f64();
+    atomic_file::write(path, &encode(record, so_far)?, replace)?;
+    record.seconds.output = so_far();
+    Ok(())
+}
+
 /// Returns the bytes of the result file of `record`.
 /// # Errors
 /// [`StorageError::Ragged`] if its frames differ in size, [`StorageError::Build`] if memory runs out.
 pub fn to_bytes(record: &Record) -> Result<Vec<u8>, StorageError> {
+    encode(record, || record.seconds.output)
+}
+
+/// The bytes of `record`, with what `output` tells of the time that the output takes, asked for last.
+fn encode(record: &Record, output: impl FnOnce() -> f64) -> Result<Vec<u8>, StorageError> {
     check_rectangular(record)?;
     let file = in_memory()?;
     let frame = axis(&file, "frame", record.frames.len())?;
@@ -31,6 +49,10 @@ pub fn to_bytes(record: &Record) -> Result<Vec<u8>, StorageError> {
     write_fields(&file, record, [&frame, &node, &component])?;
     write_steps(&file, record)?;
     provenance::write(&file, record)?;
+    if record.seconds != Seconds::default() {
+        let seconds = Seconds { output: output(), ..record.seconds.clone() };
+        seconds::write(&file, &seconds, &record.energy_terms)?;
+    }
     hdf5_image::file_image(&file).map_err(building("the image of the file"))
 }
 
@@ -133,6 +155,9 @@ fn check_rectangular(record: &Record) -> Result<(), StorageError> {
         for entry in NODAL_FIELDS {
             check(entry.name, index, (entry.get)(frame).len(), n)?;
         }
+    }
+    if record.seconds != Seconds::default() {
+        check("seconds/evaluations", 0, record.seconds.evaluations.terms.len(), record.energy_terms.len())?;
     }
     let steps = record.steps.time.len();
     for (index, entry) in STEP_VALUES.iter().enumerate() {

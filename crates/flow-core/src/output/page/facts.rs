@@ -91,7 +91,7 @@ fn work(record: &Record) -> Vec<String> {
 }
 
 /// Largest increase between neighbours in the log of steps, or in the frames if it is not there; 0 if there is none.
-fn largest_rise(record: &Record) -> f64 {
+pub(super) fn largest_rise(record: &Record) -> f64 {
     let start = record.frames.first().map(|frame| frame.energy);
     let energies: Vec<f64> = if record.steps.energy.is_empty() {
         record.frames.iter().map(|frame| frame.energy).collect()
@@ -102,7 +102,7 @@ fn largest_rise(record: &Record) -> f64 {
 }
 
 /// The largest magnitude.
-fn largest(values: Vec<f64>) -> f64 {
+pub(super) fn largest(values: Vec<f64>) -> f64 {
     greatest(values.into_iter().map(f64::abs))
 }
 
@@ -113,7 +113,7 @@ fn drift(values: Vec<f64>) -> f64 {
 }
 
 /// The largest deviation from the first value, relative to it unless it is zero.
-fn change(values: Vec<f64>) -> f64 {
+pub(super) fn change(values: Vec<f64>) -> f64 {
     let first = values.first().copied().unwrap_or(f64::NAN);
     drift(values) / if first == 0.0 { 1.0 } else { first.abs() }
 }

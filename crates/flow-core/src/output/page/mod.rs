@@ -7,6 +7,7 @@
 //! of at most 4000 steps, 64 / 3 bytes each.
 
 mod base64;
+mod card;
 mod document;
 mod facts;
 mod json;
@@ -14,4 +15,5 @@ mod payload;
 mod plane;
 mod text;
 
+pub use card::card;
 pub use document::{PageError, html, view};

@@ -1,5 +1,7 @@
 //! Runs a scene: steps, frames, stop.
 
+mod clocks;
+mod recording;
 mod resume;
 mod start;
 mod switch;
@@ -7,16 +9,18 @@ mod switch;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
+use clocks::Clocks;
 pub use resume::{Memory, ResumeError};
 
+use crate::energies::TermFault;
 use crate::geometry::Layout;
-use crate::integrator::{Adaptive, Bdf, Counters, StepReport, Stepper};
+use crate::integrator::{Adaptive, Bdf, Clocked, Counters, IntegrationError, StepReport, Stepper};
 use crate::run::diagnostics::Diagnostics;
 use crate::run::equilibrium::Equilibrium;
 use crate::run::frames::{Start, frame};
 use crate::run::membrane::Membrane;
 use crate::run::observer::{Observer, Progress};
-use crate::run::record::{Frame, Record, StepLog, StopReason};
+use crate::run::record::{Frame, Record, StopReason};
 use crate::run::scene::Scene;
 use crate::run::setup_error::SetupError;
 use crate::run::switches::Switches;
@@ -44,6 +48,7 @@ pub struct Simulation {
     /// Gap of the last accepted state before its projection.
     closure_defect: f64,
     record: Record,
+    clocks: Clocks,
     /// Self-crossings at the start, if more of them end the run.
     allowed_crossings: Option<usize>,
     stopped: Option<StopReason>,
@@ -69,9 +74,27 @@ impl Simulation {
             return false;
         }
         let clock = Instant::now();
-        let report = self.integration.step(&mut self.membrane);
+        let watch = &mut self.clocks.watch;
+        watch.start_step();
+        let report = self.integration.step(&mut Clocked::new(&mut self.membrane, watch));
+        watch.end_step();
         let fault = self.membrane.flow().fault();
-        self.record.counters.integration_seconds += clock.elapsed().as_secs_f64();
+        let (seconds, aside) = (clock.elapsed().as_secs_f64(), self.clocks.aside());
+        self.record.counters.integration_seconds += seconds;
+        self.clocks.integration += seconds;
+        self.after_step(report, fault, observer);
+        let rest = clock.elapsed().as_secs_f64() - seconds;
+        self.clocks.observers += rest - (self.clocks.aside() - aside);
+        self.stopped.is_none()
+    }
+
+    /// Logs an accepted step, saves frames, tells `observer`, and stops the run if it is over.
+    fn after_step(
+        &mut self,
+        report: Result<StepReport, IntegrationError>,
+        fault: Option<TermFault>,
+        observer: &mut dyn Observer,
+    ) {
         match (report, fault) {
             (Err(error), _) => self.stop(StopReason::Failed(error.to_string())),
             (Ok(report), fault) => {
@@ -99,7 +122,6 @@ impl Simulation {
                 }
             }
         }
-        self.stopped.is_none()
     }
 
     /// At most `steps` steps until `time`, where the last of them ends, or until the run stops. Returns whether there is
@@ -125,55 +147,6 @@ impl Simulation {
             self.stopped = None;
             self.record.frames.truncate(self.scheduled_frames);
         }
-    }
-
-    /// The state at hand as a frame; it is not saved.
-    pub fn frame(&mut self) -> Frame {
-        self.scratch.copy_from_slice(self.integration.stepper().state());
-        let (time, integrals) = (self.integration.stepper().time(), self.integration.integrals());
-        frame(
-            &mut self.membrane,
-            &mut self.diagnostics,
-            time,
-            &mut self.scratch,
-            integrals,
-            &self.start,
-            Some(self.closure_defect),
-        )
-    }
-
-    /// What there is so far, as if the run were interrupted here, without interrupting it.
-    pub fn record(&mut self) -> Record {
-        let mut frames = self.record.frames.clone();
-        if self.record.frames.last().is_some_and(|last| last.time < self.time()) {
-            frames.push(self.frame());
-        }
-        self.record_of(frames, self.record.steps.clone())
-    }
-
-    /// A record of `frames` and `steps` alone.
-    #[must_use]
-    pub fn record_of(&self, frames: Vec<Frame>, steps: StepLog) -> Record {
-        Record {
-            frames,
-            steps,
-            counters: self.counters_with_time(),
-            stop_reason: self.stopped.clone().unwrap_or(StopReason::Interrupted),
-            provenance: self.record.provenance.clone(),
-            title: self.record.title.clone(),
-            scene: self.record.scene.clone(),
-            resolved_scene: self.record.resolved_scene.clone(),
-            energy_terms: self.record.energy_terms.clone(),
-            densities: self.record.densities.clone(),
-            fields: self.record.fields.clone(),
-            diagnostics: self.record.diagnostics.clone(),
-        }
-    }
-
-    /// Counters with the time spent.
-    fn counters_with_time(&self) -> Counters {
-        let integration_seconds = self.record.counters.integration_seconds;
-        Counters { integration_seconds, ..*self.integration.counters() }
     }
 
     fn in_contact(&mut self) -> bool {
@@ -213,6 +186,7 @@ impl Simulation {
         let stepper = self.integration.stepper();
         let now = stepper.time();
         while let Some(time) = self.next_frame().filter(|time| *time < now) {
+            let clock = Instant::now();
             let integrals = self.integration.stepper().interpolate(time, &mut self.scratch);
             self.record.frames.push(frame(
                 &mut self.membrane,
@@ -224,23 +198,13 @@ impl Simulation {
                 None,
             ));
             self.scheduled_frames += 1;
+            self.clocks.frames += clock.elapsed().as_secs_f64();
         }
     }
 
     /// Time of the next frame of the schedule.
     fn next_frame(&self) -> Option<f64> {
         self.frame_times.get(self.scheduled_frames - 1).copied()
-    }
-
-    fn stop(&mut self, reason: StopReason) {
-        let time = self.integration.stepper().time();
-        if self.record.frames.last().is_some_and(|last| last.time < time) {
-            let last = self.frame();
-            self.record.frames.push(last);
-        }
-        self.record.counters = self.counters_with_time();
-        self.record.stop_reason = reason.clone();
-        self.stopped = Some(reason);
     }
 
     /// Shape of the nodal state.
@@ -278,14 +242,5 @@ impl Simulation {
     #[must_use]
     pub fn frames(&self) -> &[Frame] {
         &self.record.frames
-    }
-
-    /// Ends the run where it stands, if it has not ended, and returns its record.
-    #[must_use]
-    pub fn into_record(mut self) -> Record {
-        if self.stopped.is_none() {
-            self.stop(StopReason::Interrupted);
-        }
-        self.record
     }
 }

@@ -1,9 +1,12 @@
 //! What a simulation must know to go on, in another process, as if it had never stopped.
 
+use std::time::Instant;
+
 use serde::{Deserialize, Serialize};
 
 use super::Simulation;
-use crate::integrator::{self, Adaptive, AdaptiveOptions, Bdf, Counters, Problem, Stepper};
+use super::clocks::Clocks;
+use crate::integrator::{self, Adaptive, AdaptiveOptions, Bdf, Counters, Problem, Stepper, Stopwatch};
 use crate::run::equilibrium::Equilibrium;
 use crate::run::frames::Start;
 use crate::run::membrane::MembraneMemory;
@@ -110,6 +113,7 @@ impl Simulation {
         steps: StepLog,
     ) -> Result<Self, ResumeError> {
         let foreign = |item| ResumeError::Foreign { item };
+        let clock = Instant::now();
         let mut simulation = Self::new(scene)?;
         let turning_number = simulation.membrane.turning_number();
         if let Some(switched) = simulation.switches.skip(memory.counters.remaps, turning_number) {
@@ -147,6 +151,7 @@ impl Simulation {
         simulation.closure_defect = memory.closure_defect;
         simulation.allowed_crossings = memory.allowed_crossings;
         simulation.equilibrium = memory.equilibrium;
+        simulation.clocks = Clocks::started(clock, 0.0, Stopwatch::default());
         Ok(simulation)
     }
 }

@@ -2,8 +2,11 @@
 
 use std::time::Instant;
 
+use super::clocks::Clocks;
 use super::{ENERGY_TOLERANCE_SHARE, Simulation};
-use crate::integrator::{Adaptive, AdaptiveOptions, Bdf, Counters, Finish, INTEGRALS, Problem};
+use crate::integrator::{
+    Adaptive, AdaptiveOptions, Bdf, Clocked, Counters, Finish, INTEGRALS, Problem, Stopwatch,
+};
 use crate::run::equilibrium::Equilibrium;
 use crate::run::frames::{Start, frame};
 use crate::run::membrane::Membrane;
@@ -11,6 +14,7 @@ use crate::run::provenance::Provenance;
 use crate::run::record::{Record, StepLog, StopReason};
 use crate::run::scene::Scene;
 use crate::run::schedule::frame_times;
+use crate::run::seconds::Seconds;
 use crate::run::setup::Setup;
 use crate::run::setup_error::SetupError;
 
@@ -22,6 +26,7 @@ impl Simulation {
     /// # Errors
     /// [`SetupError`] if the scene makes no initial state.
     pub fn new(scene: &Scene) -> Result<Self, SetupError> {
+        let clock = Instant::now();
         let Setup { mut membrane, mut state, placement, mut diagnostics, closure_defect, switches, .. } =
             Setup::new(scene)?;
         let finish = membrane.finish(0.0, &mut state);
@@ -43,10 +48,16 @@ impl Simulation {
         );
         let allowed_crossings = first.crossings as usize;
         let mut counters = Counters::default();
-        let clock = Instant::now();
-        let stepper =
-            Bdf::new(&mut membrane, &state, integral_rates, scene.accuracy.tolerance, &mut counters);
-        counters.integration_seconds = clock.elapsed().as_secs_f64();
+        let mut watch = Stopwatch::default();
+        let first_rate = Instant::now();
+        let stepper = Bdf::new(
+            &mut Clocked::new(&mut membrane, &mut watch),
+            &state,
+            integral_rates,
+            scene.accuracy.tolerance,
+            &mut counters,
+        );
+        counters.integration_seconds = first_rate.elapsed().as_secs_f64();
         let end = scene.time.end;
         let options = AdaptiveOptions {
             end: end.min(switches.next_time()),
@@ -66,6 +77,7 @@ impl Simulation {
             frames: vec![first],
             steps: StepLog::with_room(STEP_ROOM),
             counters,
+            seconds: Seconds::default(),
             stop_reason: StopReason::EndTime,
             provenance: Provenance::here(),
         };
@@ -88,6 +100,7 @@ impl Simulation {
             membrane,
             diagnostics,
             record,
+            clocks: Clocks::started(clock, counters.integration_seconds, watch),
             stopped: None,
         })
     }

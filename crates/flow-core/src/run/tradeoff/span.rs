@@ -57,6 +57,7 @@ pub(super) fn halfway(record: &Record) -> f64 {
 mod tests {
     use super::super::super::provenance::Provenance;
     use super::super::super::record::{Frame, StepLog};
+    use super::super::super::seconds::Seconds;
     use super::*;
     use crate::integrator::Counters;
 
@@ -77,6 +78,7 @@ mod tests {
                 ..StepLog::default()
             },
             counters: Counters::default(),
+            seconds: Seconds::default(),
             stop_reason: StopReason::EndTime,
             provenance: Provenance::here(),
         }

@@ -1,0 +1,213 @@
+//! Right-hand side and Jacobian products of the bending energy alone.
+
+use bytemuck::{cast_slice, cast_slice_mut};
+use flow_core::geometry::vectors::{
+    add_real_symbol, add_scaled, apply_real_symbol, apply_symbol, dot, mean, mean_of_product, multiply_by,
+    multiply_by_conjugate, multiply_into, scale, scale_into,
+};
+use flow_core::geometry::{Complex64, PeriodicGrid};
+use flow_core::operators::{Derivative, DerivativeFamily};
+
+/// The curvature of one state.
+#[derive(Clone, Debug)]
+struct Curve {
+    length: f64,
+    curvature: Vec<f64>,
+    spectrum: Vec<Complex64>,
+}
+
+/// The flow with its scratch.
+#[derive(Debug)]
+pub(super) struct BendingFlow {
+    rigidity: f64,
+    grid: PeriodicGrid,
+    derivative: Derivative,
+    current: Curve,
+    frozen: Curve,
+    density: Vec<f64>,
+    /// bκ, and the second derivative b, at the nodes.
+    moment: Vec<f64>,
+    stiffness: Vec<f64>,
+    gradient: Vec<Complex64>,
+    by_length: f64,
+    velocity: Vec<f64>,
+    values: Vec<f64>,
+    product: Vec<f64>,
+    spectrum: Vec<Complex64>,
+}
+
+impl BendingFlow {
+    pub fn new(nodes: usize, rigidity: f64) -> Self {
+        let grid = PeriodicGrid::new(nodes);
+        let derivative = Derivative::new(DerivativeFamily::Fourier, &grid);
+        let (field, spectrum) = (vec![0.0; nodes], vec![Complex64::default(); grid.modes()]);
+        let curve = Curve { length: 1.0, curvature: field.clone(), spectrum: spectrum.clone() };
+        Self {
+            rigidity,
+            derivative,
+            frozen: curve.clone(),
+            current: curve,
+            density: field.clone(),
+            moment: field.clone(),
+            stiffness: vec![rigidity; nodes],
+            gradient: spectrum.clone(),
+            by_length: 0.0,
+            velocity: field.clone(),
+            values: field.clone(),
+            product: field,
+            spectrum,
+            grid,
+        }
+    }
+
+    pub fn modes(&self) -> usize {
+        self.grid.modes()
+    }
+
+    pub fn curvature(&self) -> &[f64] {
+        &self.current.curvature
+    }
+
+    pub fn velocity(&self) -> &[f64] {
+        &self.velocity
+    }
+
+    /// Energy, gradient and velocity at the spectral state `y`.
+    pub fn evaluate(&mut self, y: &[f64]) -> f64 {
+        let b = self.rigidity;
+        let Curve { length, curvature, spectrum } = &mut self.current;
+        let turning = 2 * spectrum.len();
+        *length = y[turning];
+        scale_into(cast_slice_mut(spectrum), 1.0 / *length, &y[..turning]);
+        self.grid.synthesise(spectrum, curvature);
+        for ((e, moment), kappa) in self.density.iter_mut().zip(&mut self.moment).zip(&*curvature) {
+            *e = 0.5 * b * kappa * kappa;
+            *moment = b * kappa;
+        }
+        let mean_density = mean(&self.density);
+        self.grid.transform(&self.moment, &mut self.gradient);
+        self.by_length = mean_density - mean_product(&self.grid, spectrum, &self.gradient);
+        let energy = *length * mean_density;
+        self.descend(false);
+        energy
+    }
+
+    /// Keeps the state evaluated last as that of the linearisation.
+    pub fn freeze(&mut self) {
+        self.frozen.length = self.current.length;
+        self.frozen.curvature.copy_from_slice(&self.current.curvature);
+        self.frozen.spectrum.copy_from_slice(&self.current.spectrum);
+    }
+
+    /// Dissipation at the state evaluated last, where the force is the velocity.
+    pub fn dissipation(&self) -> f64 {
+        self.current.length * mean_of_product(&self.velocity, &self.velocity)
+    }
+
+    /// Gradient and velocity of the second derivative times the motion `v`.
+    pub fn frozen_hessian_product(&mut self, v: &[f64]) {
+        let Curve { length, spectrum, .. } = &self.frozen;
+        let turning = 2 * spectrum.len();
+        let length_motion = v[turning];
+        scale_into(cast_slice_mut(&mut self.spectrum), 1.0 / length, &v[..turning]);
+        add_scaled(cast_slice_mut(&mut self.spectrum), -length_motion / length, cast_slice(spectrum));
+        self.grid.synthesise(&self.spectrum, &mut self.values);
+        multiply_into(&mut self.product, &self.stiffness, &self.values);
+        self.grid.transform(&self.product, &mut self.gradient);
+        self.by_length = -mean_product(&self.grid, spectrum, &self.gradient);
+        self.descend(true);
+    }
+
+    /// V = f of the gradient at hand.
+    fn descend(&mut self, frozen: bool) {
+        let at = if frozen { &self.frozen } else { &self.current };
+        apply_symbol(&mut self.spectrum, &self.gradient, self.derivative.to_flux());
+        self.grid.synthesise(&self.spectrum, &mut self.values);
+        multiply_into(&mut self.product, &at.curvature, &self.values);
+        self.grid.transform(&self.product, &mut self.spectrum);
+        multiply_by(&mut self.spectrum, self.derivative.inverse_to_flux());
+        self.grid.synthesise(&self.spectrum, &mut self.values);
+        for ((f, z), kappa) in self.velocity.iter_mut().zip(&self.values).zip(&at.curvature) {
+            *f = kappa * (z - self.by_length);
+        }
+        let scale = -1.0 / at.length.powi(2);
+        apply_real_symbol(&mut self.spectrum, scale, &self.gradient, self.derivative.minus_laplacian());
+        self.grid.synthesise(&self.spectrum, &mut self.values);
+        add_scaled(&mut self.velocity, 1.0, &self.values);
+    }
+
+    pub fn write_rates(&mut self, rate: &mut [f64]) {
+        Self::rates(
+            &self.current,
+            &mut self.grid,
+            &self.derivative,
+            &self.velocity,
+            [&mut self.product, &mut self.values],
+            &mut self.spectrum,
+            rate,
+        );
+    }
+
+    pub fn write_frozen_rates(&mut self, rate: &mut [f64]) {
+        Self::rates(
+            &self.frozen,
+            &mut self.grid,
+            &self.derivative,
+            &self.velocity,
+            [&mut self.product, &mut self.values],
+            &mut self.spectrum,
+            rate,
+        );
+    }
+
+    /// Rates under the normal velocity `v`, (F2).
+    fn rates(
+        at: &Curve,
+        grid: &mut PeriodicGrid,
+        derivative: &Derivative,
+        v: &[f64],
+        [product, tangential]: [&mut [f64]; 2],
+        spectrum: &mut [Complex64],
+        out: &mut [f64],
+    ) {
+        let turning = 2 * spectrum.len();
+        multiply_into(product, &at.curvature, v);
+        grid.transform(product, spectrum);
+        out[turning] = at.length * spectrum[0].re;
+        multiply_by_conjugate(spectrum, at.length, derivative.inverse_to_flux());
+        grid.synthesise(spectrum, tangential);
+        multiply_into(product, &at.curvature, tangential);
+        let rate: &mut [Complex64] = cast_slice_mut(&mut out[..turning]);
+        grid.transform(product, rate);
+        multiply_by_conjugate(rate, -1.0, derivative.to_flux());
+        grid.transform(v, spectrum);
+        add_real_symbol(rate, 1.0 / at.length, spectrum, derivative.minus_laplacian());
+        grid.make_real(rate);
+    }
+
+    /// Tangential velocity W at the state evaluated last.
+    pub fn tangential_velocity(&mut self, w: &mut [f64]) {
+        multiply_into(&mut self.product, &self.current.curvature, &self.velocity);
+        scale(&mut self.product, -self.current.length);
+        self.grid.transform(&self.product, &mut self.spectrum);
+        self.grid.integrate(&mut self.spectrum);
+        self.grid.synthesise(&self.spectrum, w);
+    }
+
+    /// The symbol of (I − γJ)⁻¹ at the linearisation, by mode.
+    pub fn invert_symbol(&self, gamma: f64, inverse: &mut [f64]) {
+        let (length, stiffness) = (self.frozen.length, mean(&self.stiffness));
+        for (inverse, laplacian) in inverse.iter_mut().zip(self.derivative.minus_laplacian()) {
+            let square = laplacian / (length * length);
+            let mobility = gamma * (square * square);
+            *inverse = 1.0 / (mobility * stiffness + 1.0);
+        }
+    }
+}
+
+/// Mean of the product of two fields by Parseval's identity.
+fn mean_product(grid: &PeriodicGrid, a: &[Complex64], b: &[Complex64]) -> f64 {
+    let product = |m: usize| a[m].re * b[m].re + a[m].im * b[m].im;
+    let full = dot(cast_slice(a), cast_slice(b));
+    2.0 * full - product(0) - grid.sawtooth_mode().map_or(0.0, product)
+}

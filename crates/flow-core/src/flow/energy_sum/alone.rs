@@ -1,0 +1,100 @@
+//! What each term costs: evaluations with it alone, less evaluations with none.
+
+use std::mem;
+use std::time::Instant;
+
+use super::super::curve_fields::CurveFields;
+use super::{EnergySum, IntrinsicGradient};
+use crate::energies::EnergyTerm;
+
+/// Seconds that evaluations of the energy take with some terms.
+#[derive(Clone, Copy, Debug)]
+pub struct TermCost {
+    /// The gradient.
+    pub gradient: f64,
+    /// The gradient and the second derivative.
+    pub linearisation: f64,
+    /// A product with the second derivative.
+    pub product: f64,
+}
+
+impl TermCost {
+    /// Before any measurement.
+    pub const LARGEST: Self =
+        Self { gradient: f64::INFINITY, linearisation: f64::INFINITY, product: f64::INFINITY };
+
+    /// The smaller of each.
+    fn least(self, other: Self) -> Self {
+        Self {
+            gradient: self.gradient.min(other.gradient),
+            linearisation: self.linearisation.min(other.linearisation),
+            product: self.product.min(other.product),
+        }
+    }
+
+    /// Over `base`; a term that costs nothing may seem to cost less.
+    #[must_use]
+    pub fn over(self, base: Self) -> Self {
+        Self {
+            gradient: (self.gradient - base.gradient).max(0.0),
+            linearisation: (self.linearisation - base.linearisation).max(0.0),
+            product: (self.product - base.product).max(0.0),
+        }
+    }
+}
+
+impl EnergySum {
+    /// Lowers `costs`, of no term and of each term alone, to what a round of evaluations at the state `at`, with `motion` as a
+    /// motion of it, takes. Overwrites `gradient` and the linearisation.
+    pub fn measure_terms(
+        &mut self,
+        at: &CurveFields,
+        motion: &[f64],
+        gradient: &mut IntrinsicGradient,
+        costs: &mut [TermCost],
+    ) {
+        let terms = mem::take(&mut self.terms);
+        let (slopes, shape) = (self.slopes.take(), self.shape.take());
+        let stiffness = mem::replace(&mut self.stiffness, vec![0.0; self.layout.fields()]);
+        costs[0] = costs[0].least(self.measure(at, motion, gradient));
+        (self.slopes, self.shape) = (slopes, shape);
+        let mut back: Vec<Box<dyn EnergyTerm>> = Vec::with_capacity(terms.len());
+        for (term, cost) in terms.into_iter().zip(&mut costs[1..]) {
+            *cost = cost.least(self.measure_alone(term, at, motion, gradient, &mut back));
+        }
+        (self.terms, self.stiffness) = (back, stiffness);
+    }
+
+    /// Evaluations with `term` alone, which goes to `back`.
+    fn measure_alone(
+        &mut self,
+        term: Box<dyn EnergyTerm>,
+        at: &CurveFields,
+        motion: &[f64],
+        gradient: &mut IntrinsicGradient,
+        back: &mut Vec<Box<dyn EnergyTerm>>,
+    ) -> TermCost {
+        for (field, stiffness) in self.stiffness.iter_mut().enumerate() {
+            *stiffness = term.stiffness(field);
+        }
+        let slopes = if term.has_slope_density() { None } else { self.slopes.take() };
+        let shape = if term.has_shape_energy() { None } else { self.shape.take() };
+        self.terms.push(term);
+        let cost = self.measure(at, motion, gradient);
+        back.append(&mut self.terms);
+        self.slopes = self.slopes.take().or(slopes);
+        self.shape = self.shape.take().or(shape);
+        cost
+    }
+
+    fn measure(&mut self, at: &CurveFields, motion: &[f64], gradient: &mut IntrinsicGradient) -> TermCost {
+        let mut clock = Instant::now();
+        let mut lap = || mem::replace(&mut clock, Instant::now()).elapsed().as_secs_f64();
+        self.gradient(at, gradient);
+        let first = lap();
+        self.linearise(at, gradient);
+        let second = lap();
+        self.hessian_product(at, motion, gradient);
+        TermCost { gradient: first, linearisation: second, product: lap() }
+    }
+}

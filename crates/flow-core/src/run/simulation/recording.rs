@@ -1,0 +1,95 @@
+//! What there is of a run so far, as a record.
+
+use std::time::Instant;
+
+use super::Simulation;
+use crate::integrator::{Counters, Stepper};
+use crate::run::frames::frame;
+use crate::run::record::{Frame, Record, StepLog, StopReason};
+use crate::run::seconds::Seconds;
+
+/// Part of the time of the integration that the replay may take which tells the parts of the evaluations.
+const REPLAY_SHARE: f64 = 0.003;
+
+impl Simulation {
+    /// The state at hand as a frame; it is not saved.
+    pub fn frame(&mut self) -> Frame {
+        self.scratch.copy_from_slice(self.integration.stepper().state());
+        let (time, integrals) = (self.integration.stepper().time(), self.integration.integrals());
+        frame(
+            &mut self.membrane,
+            &mut self.diagnostics,
+            time,
+            &mut self.scratch,
+            integrals,
+            &self.start,
+            Some(self.closure_defect),
+        )
+    }
+
+    /// What there is so far, as if the run were interrupted here, without interrupting it.
+    pub fn record(&mut self) -> Record {
+        let mut frames = self.record.frames.clone();
+        if self.record.frames.last().is_some_and(|last| last.time < self.time()) {
+            frames.push(self.frame());
+        }
+        let seconds = self.seconds();
+        Record { seconds, ..self.record_of(frames, self.record.steps.clone()) }
+    }
+
+    /// A record of `frames` and `steps` alone, which does not say where the time went.
+    #[must_use]
+    pub fn record_of(&self, frames: Vec<Frame>, steps: StepLog) -> Record {
+        Record {
+            frames,
+            steps,
+            counters: self.counters_with_time(),
+            seconds: Seconds::default(),
+            stop_reason: self.stopped.clone().unwrap_or(StopReason::Interrupted),
+            provenance: self.record.provenance.clone(),
+            title: self.record.title.clone(),
+            scene: self.record.scene.clone(),
+            resolved_scene: self.record.resolved_scene.clone(),
+            energy_terms: self.record.energy_terms.clone(),
+            densities: self.record.densities.clone(),
+            fields: self.record.fields.clone(),
+            diagnostics: self.record.diagnostics.clone(),
+        }
+    }
+
+    /// Counters with the time spent.
+    pub(super) fn counters_with_time(&self) -> Counters {
+        let integration_seconds = self.record.counters.integration_seconds;
+        Counters { integration_seconds, ..*self.integration.counters() }
+    }
+
+    pub(super) fn stop(&mut self, reason: StopReason) {
+        let time = self.integration.stepper().time();
+        if self.record.frames.last().is_some_and(|last| last.time < time) {
+            let clock = Instant::now();
+            let last = self.frame();
+            self.record.frames.push(last);
+            self.clocks.frames += clock.elapsed().as_secs_f64();
+        }
+        self.record.counters = self.counters_with_time();
+        self.record.stop_reason = reason.clone();
+        self.stopped = Some(reason);
+    }
+
+    /// Where the time went up to here.
+    fn seconds(&mut self) -> Seconds {
+        let limit = REPLAY_SHARE * self.clocks.integration;
+        let costs = self.membrane.flow().part_costs(self.integration.stepper().state(), limit);
+        self.clocks.seconds(&costs)
+    }
+
+    /// Ends the run where it stands, if it has not ended, and returns its record.
+    #[must_use]
+    pub fn into_record(mut self) -> Record {
+        if self.stopped.is_none() {
+            self.stop(StopReason::Interrupted);
+        }
+        self.record.seconds = self.seconds();
+        self.record
+    }
+}

@@ -1,0 +1,209 @@
+//! What limits a run, from its shares and counters.
+
+use super::super::record::Record;
+use super::super::scene::{Gauge, LinearSolver, Scene};
+use super::WhySlow;
+
+/// What the time of a run goes up with most.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Limit {
+    /// Nothing was measured: an older file.
+    NotMeasured,
+    /// The start takes most of the time.
+    Start,
+    /// The frames and the files do, the frames more.
+    Frames,
+    /// The frames and the files do, the files more.
+    Output,
+    /// Those who watch do.
+    Observers,
+    /// Steps are rejected because the energy rises.
+    EnergyRises,
+    /// Steps are rejected because values are not finite.
+    NotFinite,
+    /// The implicit solves fail, or take many iterations.
+    ImplicitSolves,
+    /// One term of the energy takes most of the time, and the steps are as long as the tolerance lets them be.
+    Term,
+    /// The steps are as long as the tolerance lets them be.
+    Accuracy,
+}
+
+/// Part of the time from which on one thing is most of it.
+const MOST: f64 = 0.5;
+/// Part of the attempts that may be rejected for one cause: at a good tolerance less than one in twenty is.
+const REJECTED: f64 = 0.1;
+/// Krylov iterations of a solve; 1 to 4 are usual.
+const MANY_ITERATIONS: f64 = 8.0;
+
+impl Limit {
+    /// All of them.
+    const ALL: [Self; 10] = [
+        Self::NotMeasured,
+        Self::Start,
+        Self::Frames,
+        Self::Output,
+        Self::Observers,
+        Self::EnergyRises,
+        Self::NotFinite,
+        Self::ImplicitSolves,
+        Self::Term,
+        Self::Accuracy,
+    ];
+
+    /// Its name: `not-measured`, `start`, `frames`, `output`, `observers`, `energy-rises`, `not-finite`, `implicit-solves`, `term`
+    /// or `accuracy`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::NotMeasured => "not-measured",
+            Self::Start => "start",
+            Self::Frames => "frames",
+            Self::Output => "output",
+            Self::Observers => "observers",
+            Self::EnergyRises => "energy-rises",
+            Self::NotFinite => "not-finite",
+            Self::ImplicitSolves => "implicit-solves",
+            Self::Term => "term",
+            Self::Accuracy => "accuracy",
+        }
+    }
+
+    /// The first that holds.
+    pub(super) fn of(why: &WhySlow) -> Self {
+        Self::ALL.into_iter().find(|limit| limit.holds(why)).unwrap_or(Self::Accuracy)
+    }
+
+    fn holds(self, why: &WhySlow) -> bool {
+        let attempts = (why.steps + why.rejections.total()).max(1) as f64;
+        let rejected = |count: u64| count as f64 > REJECTED * attempts;
+        match self {
+            Self::NotMeasured => why.total <= 0.0,
+            Self::Start | Self::Observers => why.share(self.name()) > MOST,
+            Self::Frames | Self::Output => {
+                let (frames, output) = (why.share("frames"), why.share("output"));
+                frames + output > MOST && (frames >= output) == (self == Self::Frames)
+            }
+            Self::EnergyRises => rejected(why.rejections.energy_rise),
+            Self::NotFinite => rejected(why.rejections.not_finite),
+            Self::ImplicitSolves => {
+                rejected(why.rejections.solver) || why.krylov_iterations_per_solve > MANY_ITERATIONS
+            }
+            Self::Term => dearest_term(why).is_some(),
+            Self::Accuracy => true,
+        }
+    }
+
+    /// One sentence on it, and one thing to try.
+    pub(super) fn explain(self, why: &WhySlow, record: &Record) -> (String, String) {
+        let percent = |activity: &str| format!("{:.0} %", 100.0 * why.share(activity));
+        let rejections = &why.rejections;
+        let (sentence, advice) = match self {
+            Self::NotMeasured => (
+                "this file does not say where the time went".to_owned(),
+                "run the scene again with this version",
+            ),
+            Self::Start => (
+                format!("the run is short: its start takes {} of the time", percent("start")),
+                "run many scenes in one process, from Python, rather than one in each",
+            ),
+            Self::Frames | Self::Output => {
+                (saving(why), "save fewer frames (output.frames), or fewer fields (output.fields)")
+            }
+            Self::Observers => (
+                format!("those who watch the run take {} of the time", percent("observers")),
+                "do less in the callback, or call it less often",
+            ),
+            Self::EnergyRises => (
+                format!(
+                    "{} attempts at a step were rejected because the energy rose",
+                    rejections.energy_rise
+                ),
+                "a smaller accuracy.tolerance: it solves the implicit steps more exactly",
+            ),
+            Self::NotFinite => (
+                format!(
+                    "{} attempts at a step left the numbers that the scene is good for",
+                    rejections.not_finite
+                ),
+                "check the range of its expressions, or give it more accuracy.nodes",
+            ),
+            Self::ImplicitSolves => (implicit_solves(why), easier_solves(record)),
+            Self::Term => dear_term(why),
+            Self::Accuracy => (
+                format!("{}; {}", as_long_as_they_may_be(why), most(why)),
+                "a larger accuracy.tolerance: `curveflow tradeoff` measures what that costs in accuracy",
+            ),
+        };
+        (sentence, advice.to_owned())
+    }
+}
+
+fn saving(why: &WhySlow) -> String {
+    let (frames, output) = (100.0 * why.share("frames"), 100.0 * why.share("output"));
+    let files = if output > 0.0 { format!(", and files {output:.0} %") } else { String::new() };
+    format!("frames take {frames:.0} % of the time{files}")
+}
+
+fn as_long_as_they_may_be(why: &WhySlow) -> String {
+    format!(
+        "the {} steps are as long as accuracy.tolerance lets them be ({} more were rejected for their error)",
+        why.steps, why.rejections.error
+    )
+}
+
+/// What takes most of the time of the steps.
+fn most(why: &WhySlow) -> String {
+    let aside = ["start", "frames", "observers", "output"];
+    let largest = why.activities.iter().find(|share| !aside.contains(&share.name.as_str()));
+    largest.map_or_else(String::new, |share| {
+        let name = super::text::readable(&share.name);
+        format!("most of it goes into {name}, {:.0} % of the time", 100.0 * share.share)
+    })
+}
+
+fn implicit_solves(why: &WhySlow) -> String {
+    format!(
+        "the implicit solves are hard: {:.1} Krylov iterations each, and {} of them failed",
+        why.krylov_iterations_per_solve, why.rejections.solver
+    )
+}
+
+/// What makes the linear systems of a scene easier.
+fn easier_solves(record: &Record) -> &'static str {
+    let smaller = "a smaller accuracy.tolerance: shorter steps are easier to solve";
+    // The scene of a file of another version may not be readable here; the general advice holds then.
+    let Ok(scene) = Scene::parse(&record.resolved_scene, "the scene of the result") else { return smaller };
+    let positions = scene.energy.adhesion.is_some() || scene.energy.area.is_some();
+    match (scene.flow.gauge, scene.accuracy.linear_solver) {
+        (Gauge::CoMoving, _) => {
+            "a [[flow.switch]] to gauge = \"scaled-arc-length\" before the flow comes to rest"
+        }
+        (Gauge::Graded, _) => "a weaker flow.grading, or gauge = \"scaled-arc-length\"",
+        (_, LinearSolver::Fourier) => "accuracy.linear_solver = \"auto\"",
+        (_, LinearSolver::Auto | LinearSolver::Banded) if positions && record.nodes() <= 128 => {
+            "accuracy.linear_solver = \"dense\": only it knows the terms that act on positions"
+        }
+        _ => smaller,
+    }
+}
+
+/// The term of the energy that takes most of the time, with its share.
+fn dearest_term(why: &WhySlow) -> Option<(&str, f64)> {
+    let parts = ["normal_mobility", "density_mobilities", "flow_map"];
+    let terms = why.evaluations.iter().filter(|share| !parts.contains(&share.name.as_str()));
+    terms.map(|share| (share.name.as_str(), share.share)).find(|(_, share)| *share > MOST)
+}
+
+fn dear_term(why: &WhySlow) -> (String, &'static str) {
+    let (term, share) = dearest_term(why).unwrap_or_default();
+    let sentence =
+        format!("{}; energy.{term} takes {:.0} % of the time", as_long_as_they_may_be(why), 100.0 * share);
+    let advice = match term {
+        "adhesion" => {
+            "a smaller energy.adhesion.cutoff, or fewer accuracy.nodes: pairs of nodes are what it costs"
+        }
+        _ => "shorter expressions in it, or fewer accuracy.nodes",
+    };
+    (sentence, advice)
+}

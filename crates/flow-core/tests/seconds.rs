@@ -1,0 +1,162 @@
+//! Where the time of a run went: shares that add up, with every term that the scene names, and what is said of them.
+
+use std::ops::ControlFlow;
+
+use flow_core::run::{
+    Counters, Limit, Observer, Progress, Quiet, Record, Rejections, Scene, Seconds, Simulation, WhySlow, run,
+};
+
+mod synthetic;
+
+/// A shipped scene up to `end`.
+fn shipped(name: &str, end: &str) -> Scene {
+    let (_, text) = Scene::shipped().iter().find(|(shipped, _)| *shipped == name).expect("shipped");
+    let changes = [("time.end", end), ("output.frames", "3")].map(|(key, value)| (key.into(), value.into()));
+    Scene::parse_with(text, name, &changes).expect("valid")
+}
+
+fn record(name: &str, end: &str) -> Record {
+    run(&shipped(name, end), &mut Quiet).expect("an initial state")
+}
+
+fn assert_sum(shares: impl IntoIterator<Item = f64>, total: f64) {
+    let sum: f64 = shares.into_iter().inspect(|share| assert!(*share >= 0.0, "{share}")).sum();
+    assert!((sum - total).abs() <= 1e-9 * total, "{sum} is not {total}");
+}
+
+#[test]
+fn shares_are_not_negative_and_add_up() {
+    let scenes = [
+        ("three_fold", "1e-3"),
+        ("adhesion", "1e-3"),
+        ("incompressible", "1e-3"),
+        ("membrane_penalty", "1e-3"),
+    ];
+    for (name, end) in scenes {
+        let record = record(name, end);
+        let why = WhySlow::of(&record);
+        assert!(why.total > 0.0, "{name}");
+        assert_sum(why.activities.iter().map(|share| share.share), 1.0);
+        assert_sum(why.activities.iter().map(|share| share.seconds), record.seconds.total());
+        assert_sum(why.evaluations.iter().map(|share| share.seconds), record.seconds.in_evaluations());
+        let Seconds { start, remaps, frames, observers, output, .. } = record.seconds;
+        let aside = start + remaps + frames + observers + output;
+        assert_sum([record.seconds.total() - aside], record.counters.integration_seconds);
+        for term in &record.energy_terms {
+            assert!(why.evaluations.iter().any(|share| share.name == *term), "{name}: {term}");
+        }
+        assert_eq!(record.seconds.evaluations.terms.len(), record.energy_terms.len(), "{name}");
+    }
+}
+
+#[test]
+fn what_a_scene_does_costs_and_what_it_does_not_do_costs_nothing() {
+    let record = record("adhesion", "1e-2");
+    let seconds = &record.seconds;
+    for (name, seconds) in seconds.by_activity() {
+        match name {
+            "remaps" | "output" => assert_eq!(seconds, 0.0, "{name}"),
+            "right_hand_sides" => {} // a linearisation has one, and most steps need no other
+            _ => assert!(seconds > 0.0, "{name}"),
+        }
+    }
+    let term = |name: &str| {
+        let place = record.energy_terms.iter().position(|term| term == name).expect("a term of the scene");
+        seconds.evaluations.terms[place]
+    };
+    // All pairs of 256 nodes against a square at each of them.
+    assert!(term("adhesion") > 10.0 * term("bending"), "{:?}", seconds.evaluations);
+}
+
+#[test]
+fn a_switch_of_the_gauge_is_a_remap() {
+    let switch = "[{ time = 0.002, gauge = 'graded', grading = 'exp(0.5*cos(6*pi*s))' }]";
+    let changes = [("flow.switch".to_owned(), switch.to_owned())];
+    let (_, text) = Scene::shipped().iter().find(|(name, _)| *name == "length_penalty").expect("shipped");
+    let scene = Scene::parse_with(text, "length_penalty", &changes).expect("valid");
+    let record = run(&scene, &mut Quiet).expect("an initial state");
+    assert!(record.seconds.remaps > 0.0);
+    let why = WhySlow::of(&record);
+    assert_sum(why.activities.iter().map(|share| share.share), 1.0);
+}
+
+/// Looks at the record after every step, which replays the parts of the evaluations.
+#[test]
+fn looking_at_the_clocks_changes_no_bit() {
+    let scene = shipped("three_fold", "1e-4");
+    let whole = run(&scene, &mut Quiet).expect("an initial state");
+    let mut watched = Simulation::new(&scene).expect("an initial state");
+    while watched.step(&mut Quiet) {
+        assert!(watched.record().seconds.total() > 0.0);
+    }
+    let watched = watched.into_record();
+    assert_eq!(watched.steps, whole.steps);
+    assert!(watched.frames == whole.frames, "the frames differ");
+}
+
+struct Busy;
+
+impl Observer for Busy {
+    fn after_step(&mut self, _: &Progress) -> ControlFlow<()> {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+        ControlFlow::Continue(())
+    }
+}
+
+#[test]
+fn those_who_watch_are_named() {
+    let record = run(&shipped("circle", "1e-3"), &mut Busy).expect("an initial state");
+    let why = WhySlow::of(&record);
+    assert_eq!(why.limit, Limit::Observers, "{why}");
+    assert_eq!(why.activities[0].name, "observers");
+    assert!(why.sentence.contains("watch"), "{}", why.sentence);
+}
+
+/// A record with the counters and seconds that `change` makes of quick steps.
+fn limit(change: impl FnOnce(&mut Seconds, &mut Counters)) -> Limit {
+    let mut record = synthetic::record(3, 16, &["rho"]);
+    let counters = Counters {
+        steps: 100,
+        newton_iterations: 100,
+        krylov_iterations: 300,
+        rejections: Rejections { error: 5, ..Rejections::default() },
+        ..Counters::default()
+    };
+    (record.seconds, record.counters) = (Seconds { jacobian_products: 1.0, ..Seconds::default() }, counters);
+    change(&mut record.seconds, &mut record.counters);
+    let why = WhySlow::of(&record);
+    assert!(!why.sentence.is_empty() && !why.advice.is_empty());
+    why.limit
+}
+
+#[test]
+fn each_limit_has_its_cause() {
+    assert_eq!(limit(|_, _| ()), Limit::Accuracy);
+    assert_eq!(limit(|seconds, _| *seconds = Seconds::default()), Limit::NotMeasured);
+    assert_eq!(limit(|seconds, _| seconds.start = 2.0), Limit::Start);
+    assert_eq!(limit(|seconds, _| (seconds.frames, seconds.output) = (1.0, 0.5)), Limit::Frames);
+    assert_eq!(limit(|seconds, _| (seconds.frames, seconds.output) = (0.5, 1.0)), Limit::Output);
+    assert_eq!(limit(|seconds, _| seconds.observers = 2.0), Limit::Observers);
+    assert_eq!(limit(|seconds, _| seconds.evaluations.terms = vec![0.9, 0.1]), Limit::Term);
+    assert_eq!(limit(|_, counters| counters.rejections.energy_rise = 20), Limit::EnergyRises);
+    assert_eq!(limit(|_, counters| counters.rejections.not_finite = 20), Limit::NotFinite);
+    assert_eq!(limit(|_, counters| counters.rejections.solver = 20), Limit::ImplicitSolves);
+    assert_eq!(limit(|_, counters| counters.krylov_iterations = 2000), Limit::ImplicitSolves);
+}
+
+#[test]
+fn the_text_has_the_sentence_the_advice_and_the_terms() {
+    let mut record = synthetic::record(3, 16, &["rho"]);
+    record.counters.rejections = Rejections::default();
+    let text = WhySlow::of(&record).to_string();
+    for part in [
+        "try: ",
+        "energy.agents",
+        "energy.length",
+        "Jacobian products",
+        "0 energy rises",
+        "Krylov iterations per solve",
+    ] {
+        assert!(text.contains(part), "{part} is not in\n{text}");
+    }
+}

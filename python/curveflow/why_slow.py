@@ -1,0 +1,54 @@
+"""Where the time of a run went, and what limits it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+from . import _curveflow
+
+
+@dataclass(frozen=True, repr=False)
+class WhySlow:
+    """Why a run takes the time that it takes; prints as a sentence, one thing to try, and tables.
+
+    Times are wall time since the run was started or, if it was resumed, since then. Steps are clocked now and then and stand
+    for all; parts of the evaluations are measured in a short replay on the final state.
+    """
+
+    limit: str
+    """What the time goes up with most.
+
+    ``"accuracy"`` (steps as long as the tolerance lets them be), ``"term"`` (the same, and one term of the energy takes most
+    of the time), ``"implicit-solves"``, ``"energy-rises"``, ``"not-finite"``, ``"frames"``, ``"output"``, ``"observers"``,
+    ``"start"``, or ``"not-measured"``.
+    """
+    sentence: str
+    """One sentence on it."""
+    advice: str
+    """One thing to try."""
+    krylov_iterations_per_solve: float
+    """Krylov iterations of a linear solve, in the mean."""
+    seconds: Mapping[str, float]
+    """Seconds by what they were spent on, largest first; they add up to :attr:`total`."""
+    evaluation_seconds: Mapping[str, float]
+    """Seconds by part of the right-hand sides, linearisations, Jacobian products and checks, which they add up to.
+
+    Terms of the energy by their names, ``normal_mobility``, ``density_mobilities``, and ``flow_map``: gauge, flow map,
+    transforms and closure. Largest first.
+    """
+    _text: str = field(compare=False)
+
+    @classmethod
+    def _of(cls, record: _curveflow.Record) -> WhySlow:
+        limit, sentence, advice, text, krylov, seconds, parts = record.why_slow()
+        return cls(limit, sentence, advice, krylov, MappingProxyType(dict(seconds)), MappingProxyType(dict(parts)), text)
+
+    @property
+    def total(self) -> float:
+        """Seconds of the run."""
+        return sum(self.seconds.values())
+
+    def __repr__(self) -> str:
+        return self._text
