@@ -19,12 +19,13 @@ def of_record(record: _curveflow.Record) -> xarray.Dataset:
     image = io.BytesIO(_curveflow.file_bytes(record))
     with library.open_datatree(image, engine="h5netcdf") as tree:
         groups = [_renamed(group.path, group.to_dataset(inherit=False).load()) for group in tree.subtree]
-    # The first group is the file itself: its attributes are those of the dataset.
     merged: xarray.Dataset = library.merge(groups, join="exact", compat="identical", combine_attrs="override")
-    return merged
+    return merged.assign_attrs({name: value for group in groups for name, value in group.attrs.items()})
 
 
 def _renamed(path: str, group: xarray.Dataset) -> xarray.Dataset:
-    """Put the name of the group before those of its variables."""
+    """Put the name of the group before those of its variables and attributes."""
     prefix = "".join(f"{part}_" for part in path.split("/") if part)
-    return group.rename_vars({name: f"{prefix}{name}" for name in group.variables if name not in group.dims})
+    renamed = group.rename_vars({name: f"{prefix}{name}" for name in group.variables if name not in group.dims})
+    renamed.attrs = {f"{prefix}{name}": value for name, value in group.attrs.items()}
+    return renamed
