@@ -68,6 +68,16 @@ fn steps_on_graded_nodes_do_not_allocate() {
 }
 
 #[test]
+fn steps_with_co_moving_nodes_do_not_allocate() {
+    let moving = [("flow.gauge", "co-moving")];
+    for solver in ["fourier", "banded"] {
+        let changes = [("accuracy.nodes", "256"), ("accuracy.linear_solver", solver)];
+        assert_eq!(allocations("three_fold", &[&moving[..], &changes].concat()), 0, "{solver}");
+    }
+    assert_eq!(allocations("incompressible", &moving), 0);
+}
+
+#[test]
 fn steps_of_every_mobility_do_not_allocate() {
     for mobility in
         ["incompressible", "area-preserving", "incompressible-area-preserving", "surface-diffusion"]

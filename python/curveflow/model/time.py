@@ -18,6 +18,6 @@ class Time(Table):
     """Whether to stop before ``end`` once the flow is at rest (THEORY.md, I7)."""
     equilibrium_tolerance: float | None = None
     """At rest means: the energy still to be lost is at most this fraction of the energy. In (0, 1e-2]; a hundredth of
-    the accuracy's tolerance unless given."""
+    the accuracy's tolerance unless given, a tenth with co-moving nodes."""
     max_steps: int | None = None
     """Accepted steps after which the run stops, at least 1; unlimited unless given."""

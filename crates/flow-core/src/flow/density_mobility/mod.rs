@@ -1,6 +1,6 @@
 //! Density mobilities 𝓖: self-adjoint, ≥ 0. See `THEORY.md`, eqs. (F5) and (F14)–(F16).
 //!
-//! A new one is a file here, a name in `run/scene/density.rs` and a line in `run/setup.rs`.
+//! A new one is a file here, a name in `run/scene/density.rs` and a line in `run/mobilities.rs`.
 
 mod carried;
 mod diffusion;

@@ -35,6 +35,25 @@ impl GradientFlow {
         self.map.grid_and_derivative().0.synthesise(turning, velocity);
     }
 
+    /// K = −|Γ|`Δ_s` V of the velocity with the spectrum `velocity`, to leading order, at the frozen state.
+    pub(in crate::flow) fn turning_of_velocity(&mut self, velocity: &[Complex64], turning: &mut [Complex64]) {
+        let length = self.frozen.length();
+        if let Some(graded) = self.map.graded_laplacian() {
+            if let Some(metric) = self.frozen.moving_metric() {
+                graded.follow(metric);
+            }
+            graded.apply(velocity, turning);
+        } else {
+            let symbols = self.map.grid_and_derivative().1.minus_laplacian();
+            for ((turning, velocity), symbol) in turning.iter_mut().zip(velocity).zip(symbols) {
+                *turning = velocity * *symbol;
+            }
+        }
+        for value in turning {
+            *value /= length;
+        }
+    }
+
     /// Adds `factor` times the rates of the densities under the normal velocity V that makes the curvature of the spectral
     /// `state` its rate to leading order, K = −|Γ|`Δ_s` V, at the frozen state. Overwrites the gradient and the velocity.
     pub(in crate::flow) fn carry_densities(&mut self, state: &mut [f64], factor: f64) {

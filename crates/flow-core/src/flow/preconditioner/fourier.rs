@@ -15,6 +15,9 @@ pub struct FourierSymbol {
     means: Vec<f64>,
     block: Vec<f64>,
     scratch: Vec<Complex64>,
+    /// Whether the first unknown is the normal velocity u that makes the curvature, K = −|Γ|`Δ_s` u, with its symbols.
+    of_velocity: bool,
+    bend: Vec<f64>,
 }
 
 /// Symbols of 𝓚 by field: `Δ_s𝓑Δ_s` on the curvature, 𝓖 on the densities.
@@ -41,6 +44,8 @@ impl FourierSymbol {
             means: vec![0.0; fields * fields],
             block: vec![0.0; fields * fields],
             scratch: vec![Complex64::default(); fields],
+            of_velocity: layout.metric().is_some(),
+            bend: vec![1.0; modes],
         }
     }
 
@@ -48,6 +53,11 @@ impl FourierSymbol {
     pub fn set(&mut self, flow: &mut GradientFlow, gamma: f64, first: usize) {
         let (fields, length) = (self.fields, flow.symbol_length());
         self.laplacian.copy_from_slice(flow.grid_and_derivative().1.minus_laplacian());
+        if self.of_velocity {
+            let scale = flow.frozen().length() / (length * length);
+            let symbols = self.bend.iter_mut().zip(&self.laplacian).skip(1);
+            symbols.for_each(|(bend, symbol)| *bend = scale * symbol);
+        }
         let jet = flow.energy_terms().jet();
         let mean = |a: usize, b: usize| vectors::mean(jet.second(a, b));
         let (means, block) = (&mut self.means, &mut self.block);
@@ -97,6 +107,16 @@ impl FourierSymbol {
 
     /// Applies the inverse to the modes from `first` on.
     pub fn apply(&mut self, spectra: &mut [Complex64], first: usize) {
+        if self.of_velocity {
+            spectra.iter_mut().zip(&self.bend).skip(first).for_each(|(u, bend)| *u *= *bend);
+        }
+        self.apply_to_fields(spectra, first);
+        if self.of_velocity {
+            spectra.iter_mut().zip(&self.bend).skip(first).for_each(|(u, bend)| *u /= *bend);
+        }
+    }
+
+    fn apply_to_fields(&mut self, spectra: &mut [Complex64], first: usize) {
         let (fields, modes) = (self.fields, self.modes);
         match fields {
             1 => {

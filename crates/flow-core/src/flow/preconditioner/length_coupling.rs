@@ -63,16 +63,14 @@ impl LengthCoupling {
         self.response = response;
     }
 
-    /// Completes x = P₀r by the row of the length.
+    /// Completes x = P₀r by the row of the length; where the metric is a field, P₀ has moved the length with it.
     fn couple_row(&self, x: &mut [f64]) {
         let (index, own) = (self.index, self.row[self.index]);
-        let excess = x[x.len() - 1] - x[index];
+        if index + 1 < x.len() {
+            return;
+        }
         let sum = dot(&self.row, x) - own * x[index];
         x[index] = (x[index] - self.gamma * sum) / (1.0 + self.gamma * own.max(0.0));
-        let last = x.len() - 1;
-        if index != last {
-            x[last] = x[index] + excess;
-        }
     }
 
     /// Completes the preconditioned fields in place.

@@ -1,100 +1,119 @@
-//! The metric as a field, eliminated around the inverse of the others. See `THEORY.md`, eq. (O8).
+//! The metric as a field: what the normal velocity makes of it, and the rest, which relabels material points.
+//! See `THEORY.md`, eq. (O8).
 //!
-//! With y = δΦ − φδg for the fields Φ = K, m, I − γJ acts on y as it does where the metric is fixed, to leading order, and
-//! the normal velocity V that moves the curvature stretches the metric: `γD₊ᵀ(1/Mg)D₊V = y − r` and `δg = r_g + γKV`.
+//! A residual is r = (A u, m) + c, with the normal velocity u that makes its rate of the curvature and c a change of the metric that
+//! no normal velocity makes. Nothing moves along the curve: (I − γJ)x = r leaves c as it is, however stiff the answer Jc of the
+//! velocity, so that x = c + (A v, m′), with an equation for v and m′ alone.
 
 use super::super::gradient_flow::GradientFlow;
 use crate::geometry::Complex64;
+use crate::geometry::vectors::{add_scaled, dot, multiply_into, scale};
 
-/// Scratch of the elimination.
+/// Splits residuals, and converts between rates of the state and the velocities that make them.
 #[derive(Clone, Debug)]
 pub struct MetricCoupling {
     metric: usize,
     modes: usize,
-    /// Motion of the metric, κ and a product at the nodes.
-    stretch: Vec<f64>,
+    gamma: f64,
+    /// (A u, m), c and Jc.
+    made: Vec<f64>,
+    rest: Vec<f64>,
+    image: Vec<f64>,
+    /// The densities that are only carried: what the nodes have of them does not change at all.
+    carried: Vec<usize>,
+    /// K and nodal scratch.
+    turning: Vec<f64>,
     velocity: Vec<f64>,
     values: Vec<f64>,
-    /// The right-hand sides of the fields.
-    right: Vec<Complex64>,
     spectrum: Vec<Complex64>,
-    /// Whether a density is only carried: its node values do not change at all.
-    carried: Vec<bool>,
 }
 
 impl MetricCoupling {
     /// For the states of `flow`; none if their metric is fixed.
     #[must_use]
     pub fn of(flow: &GradientFlow) -> Option<Self> {
-        let (nodes, modes) = (flow.layout().nodes(), flow.spectral_layout().modes());
-        let spectrum = vec![Complex64::default(); modes];
+        let layout = flow.spectral_layout();
+        let (state, nodes) = (vec![0.0; layout.len()], vec![0.0; flow.layout().nodes()]);
+        let densities = flow.density_mobilities().iter().enumerate();
         Some(Self {
             metric: flow.layout().metric()?,
-            modes,
-            stretch: vec![0.0; nodes],
-            velocity: vec![0.0; nodes],
-            values: vec![0.0; nodes],
-            right: vec![Complex64::default(); flow.layout().fields() * modes],
-            carried: flow
-                .density_mobilities()
-                .iter()
-                .map(|density| density.symbol(1.0, 1.0) == 0.0)
-                .collect(),
-            spectrum,
+            modes: layout.modes(),
+            gamma: 0.0,
+            made: state.clone(),
+            rest: state.clone(),
+            image: state,
+            carried: densities.filter(|(_, of)| of.symbol(1.0, 1.0) == 0.0).map(|(i, _)| i + 1).collect(),
+            turning: nodes.clone(),
+            velocity: nodes.clone(),
+            values: nodes,
+            spectrum: vec![Complex64::default(); layout.modes()],
         })
     }
 
-    /// Solves (I − γJ)x = r in place by `inverse`, the inverse on the fields at a fixed metric.
-    pub fn apply(
-        &mut self,
-        flow: &mut GradientFlow,
-        r: &mut [f64],
-        inverse: impl FnOnce(&mut GradientFlow, &mut [f64]),
-    ) {
-        let layout = flow.spectral_layout();
-        let mean = layout.field(self.metric).start;
-        let length_excess = r[layout.length_index()] - r[mean];
-        let fields = self.right.len();
-        self.right.copy_from_slice(&layout.spectra(r)[..fields]);
-        self.add_products(flow, layout.spectra_mut(r), -1.0);
-        self.right[..self.modes].copy_from_slice(&layout.spectra(r)[..self.modes]);
-        inverse(flow, r);
-        let spectra = layout.spectra_mut(r);
-        for ((moved, y), right) in self.spectrum.iter_mut().zip(&*spectra).zip(&self.right) {
-            *moved = y - right;
-        }
-        flow.velocity_of_turning(&mut self.spectrum, &mut self.velocity);
+    /// Takes γ and the frozen state of `flow`.
+    pub fn set(&mut self, flow: &GradientFlow, gamma: f64) {
+        self.gamma = gamma;
         let at = flow.frozen();
-        let (kappa, weight, length) = (at.at_nodes(0), at.weight().unwrap_or_default(), at.length());
-        for (((value, v), kappa), weight) in self.values.iter_mut().zip(&self.velocity).zip(kappa).zip(weight)
-        {
-            *value = length * weight * kappa * v;
-        }
-        flow.grid_and_derivative().0.transform(&self.values, &mut self.spectrum);
-        let metric = &mut spectra[self.metric * self.modes..(self.metric + 1) * self.modes];
-        metric.iter_mut().zip(&self.spectrum).for_each(|(g, stretch)| *g += stretch);
-        self.add_products(flow, spectra, 1.0);
-        for (density, _) in self.carried.iter().enumerate().filter(|(_, carried)| **carried) {
-            let range = (density + 1) * self.modes..(density + 2) * self.modes;
-            spectra[range.clone()].copy_from_slice(&self.right[range]);
-        }
-        r[layout.length_index()] = r[mean] + length_excess;
+        multiply_into(&mut self.turning, at.at_nodes(0), at.weight().unwrap_or_default());
+        scale(&mut self.turning, at.length());
     }
 
-    /// Φ += factor × φ × the metric in `spectra`, for every field but the metric.
-    fn add_products(&mut self, flow: &mut GradientFlow, spectra: &mut [Complex64], factor: f64) {
-        let modes = self.modes;
-        self.spectrum.copy_from_slice(&spectra[self.metric * modes..(self.metric + 1) * modes]);
-        flow.grid_and_derivative().0.synthesise(&self.spectrum, &mut self.stretch);
-        for field in 0..self.metric {
-            for ((value, g), phi) in
-                self.values.iter_mut().zip(&self.stretch).zip(flow.frozen().at_nodes(field))
-            {
-                *value = factor * phi * g;
-            }
-            flow.grid_and_derivative().0.transform(&self.values, &mut self.spectrum);
-            let target = &mut spectra[field * modes..(field + 1) * modes];
-            target.iter_mut().zip(&self.spectrum).for_each(|(target, product)| *target += product);
+    /// Turns the right-hand side r of (I − γJ)x = r into that of x − c, which is a motion (A u, m).
+    pub fn split(&mut self, flow: &mut GradientFlow, r: &mut [f64]) {
+        let (stretch, last) = (flow.spectral_layout().field(self.metric), r.len() - 1);
+        let mut made = std::mem::take(&mut self.made);
+        made.copy_from_slice(r);
+        self.take_velocity(flow, &mut made);
+        self.make_motion(flow, &mut made);
+        for i in stretch.clone() {
+            self.rest[i] = r[i] - made[i];
         }
+        self.rest[last] = self.rest[stretch.start];
+        r[stretch.start..].copy_from_slice(&made[stretch.start..]);
+        self.made = made;
+        flow.spectral_jacobian_product(&self.rest, &mut self.image);
+        add_scaled(r, self.gamma, &self.image);
+    }
+
+    /// Completes x − c to x.
+    pub fn complete(&mut self, flow: &GradientFlow, x: &mut [f64]) {
+        add_scaled(x, 1.0, &self.rest);
+        for field in &self.carried {
+            let range = flow.spectral_layout().field(*field);
+            x[range.clone()].copy_from_slice(&self.made[range]);
+        }
+    }
+
+    /// Replaces the motion (A u, m) by (u, m).
+    pub fn take_velocity(&mut self, flow: &mut GradientFlow, motion: &mut [f64]) {
+        let layout = flow.spectral_layout();
+        let spectra = layout.spectra_mut(motion);
+        self.spectrum.copy_from_slice(&spectra[..self.modes]);
+        flow.velocity_of_turning(&mut self.spectrum, &mut self.velocity);
+        let grid = flow.grid_and_derivative().0;
+        self.spectrum.copy_from_slice(&spectra[self.metric * self.modes..(self.metric + 1) * self.modes]);
+        grid.synthesise(&self.spectrum, &mut self.values);
+        // A uniform velocity does not bend; what is left of the stretch tells it.
+        for ((value, turning), velocity) in self.values.iter_mut().zip(&self.turning).zip(&self.velocity) {
+            *value -= turning * velocity;
+        }
+        let uniform = dot(&self.turning, &self.values) / dot(&self.turning, &self.turning);
+        self.velocity.iter_mut().for_each(|velocity| *velocity += uniform);
+        grid.transform(&self.velocity, &mut spectra[..self.modes]);
+    }
+
+    /// Replaces (u, m) by the motion (A u, m).
+    pub fn make_motion(&mut self, flow: &mut GradientFlow, motion: &mut [f64]) {
+        let layout = flow.spectral_layout();
+        let spectra = layout.spectra_mut(motion);
+        self.spectrum.copy_from_slice(&spectra[..self.modes]);
+        let grid = flow.grid_and_derivative().0;
+        grid.synthesise(&self.spectrum, &mut self.velocity);
+        multiply_into(&mut self.values, &self.turning, &self.velocity);
+        let stretch = &mut spectra[self.metric * self.modes..(self.metric + 1) * self.modes];
+        grid.transform(&self.values, stretch);
+        let mean = stretch[0].re;
+        flow.turning_of_velocity(&self.spectrum, &mut spectra[..self.modes]);
+        motion[layout.length_index()] = mean;
     }
 }

@@ -6,6 +6,7 @@ mod dense;
 mod fourier;
 mod length_coupling;
 mod local_spacing;
+mod material;
 mod metric_coupling;
 mod residual_weights;
 
@@ -49,7 +50,7 @@ pub struct Preconditioner {
     inverse: FieldInverse,
     /// Whether the densities are taken relative to what the curve carries along (see [`carries`]).
     carries: bool,
-    /// Where the metric is a field.
+    /// Where the metric is a field: the inverse then acts on the normal velocity and the densities.
     metric: Option<MetricCoupling>,
     coupling: Option<LengthCoupling>,
     weights: ResidualWeights,
@@ -96,6 +97,9 @@ impl Preconditioner {
     /// [`FactorisationError`] if a pivot vanishes; a smaller γ helps.
     pub fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> Result<(), FactorisationError> {
         self.weights.set(flow, gamma);
+        if let Some(metric) = &mut self.metric {
+            metric.set(flow, gamma);
+        }
         match &mut self.inverse {
             FieldInverse::Fourier(symbol) => symbol.set(flow, gamma, 0),
             FieldInverse::Banded(banded, symbol) => {
@@ -113,9 +117,15 @@ impl Preconditioner {
 
     /// Overwrites the spectral vector `r` by the approximate solution of (I − γJ)x = r.
     pub fn apply(&mut self, flow: &mut GradientFlow, r: &mut [f64]) {
+        if let Some(metric) = &mut self.metric {
+            metric.split(flow, r);
+        }
         self.apply_to_fields(flow, r);
         if let Some(coupling) = &self.coupling {
             coupling.apply(r);
+        }
+        if let Some(metric) = &mut self.metric {
+            metric.complete(flow, r);
         }
     }
 
@@ -126,17 +136,10 @@ impl Preconditioner {
     }
 
     fn apply_to_fields(&mut self, flow: &mut GradientFlow, r: &mut [f64]) {
-        match self.metric.take() {
-            None => self.apply_at_fixed_metric(flow, r),
-            Some(mut metric) => {
-                metric.apply(flow, r, |flow, r| self.apply_at_fixed_metric(flow, r));
-                self.metric = Some(metric);
-            }
-        }
-    }
-
-    fn apply_at_fixed_metric(&mut self, flow: &mut GradientFlow, r: &mut [f64]) {
         let layout = flow.spectral_layout();
+        if let Some(metric) = &mut self.metric {
+            metric.take_velocity(flow, r);
+        }
         if self.carries {
             flow.carry_densities(r, -1.0);
         }
@@ -152,6 +155,9 @@ impl Preconditioner {
         }
         if self.carries {
             flow.carry_densities(r, 1.0);
+        }
+        if let Some(metric) = &mut self.metric {
+            metric.make_motion(flow, r);
         }
     }
 }

@@ -21,7 +21,7 @@ pub struct Time {
     #[schemars(default = "stops_at_equilibrium")]
     pub stop_at_equilibrium: bool,
     /// At rest means: the energy still to be lost, judged by the dissipation, is at most this fraction of the
-    /// energy. In (0, 1e-2]; a hundredth of the accuracy's tolerance unless given.
+    /// energy. In (0, 1e-2]; a hundredth of the accuracy's tolerance unless given, a tenth with co-moving nodes.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(transform = Within(EQUILIBRIUM_TOLERANCE))]
     pub equilibrium_tolerance: Option<f64>,

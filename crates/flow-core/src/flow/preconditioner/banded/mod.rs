@@ -5,21 +5,25 @@
 //! coarse grid does not hold are left to the Fourier symbol. The tangential (non-local) part is of order 3 against 6
 //! and left to the Krylov iteration. See `THEORY.md`, eq. (O2).
 
+mod coefficients;
 mod rows;
 
 use std::fmt::Debug;
 use std::sync::Arc;
 
+pub use coefficients::Coefficients;
+
 use super::compact_laplacian::{DIFFERENCE, mass_symbol, symbol_of_mass};
 use super::fourier::mobility_symbol;
 use super::local_spacing::LocalSpacing;
+use super::material::MaterialPart;
 use crate::flow::gradient_flow::GradientFlow;
 use crate::geometry::vectors::{mean, multiply};
 use crate::geometry::{Complex64, Grading, PeriodicGrid};
 use crate::operators::{CyclicBanded, FactorisationError};
 
 /// More nodes make the assembled sixth-order band inaccurate, and buy nothing.
-const MOST_NODES: usize = 1024;
+pub const MOST_NODES: usize = 1024;
 
 /// A banded approximate inverse acting on spectra.
 pub trait Banded: Debug + Send {
@@ -38,6 +42,15 @@ pub fn build(flow: &GradientFlow) -> Option<Box<dyn Banded>> {
         return None;
     }
     let (nodes, grading) = (flow.layout().nodes(), flow.grading().map(Arc::as_ref));
+    if flow.layout().metric().is_some() {
+        return match flow.layout().fields() {
+            1 => Some(Box::new(MaterialPart::<1, 3>::new(nodes))),
+            2 => Some(Box::new(MaterialPart::<2, 7>::new(nodes))),
+            3 => Some(Box::new(MaterialPart::<3, 11>::new(nodes))),
+            4 => Some(Box::new(MaterialPart::<4, 15>::new(nodes))),
+            _ => None,
+        };
+    }
     match flow.layout().fields() {
         1 => Some(Box::new(LocalPart::<1, 3>::new(nodes, grading))),
         2 => Some(Box::new(LocalPart::<2, 7>::new(nodes, grading))),
@@ -53,8 +66,6 @@ type Row<const F: usize> = [f64; F];
 #[derive(Debug)]
 struct LocalPart<const F: usize, const B: usize> {
     fine_modes: usize,
-    /// The nodes of the flow, unless they are those of the band.
-    fine_grid: Option<PeriodicGrid>,
     grid: PeriodicGrid,
     /// Whether 𝓚 makes no mean, by field.
     keeps_mean: [bool; F],
@@ -66,14 +77,12 @@ struct LocalPart<const F: usize, const B: usize> {
     /// the ratio of the symbols.
     before: Vec<f64>,
     after: Vec<f64>,
-    /// Coefficients on the coarse grid: fields, then second derivatives.
-    coefficients: Vec<f64>,
+    coefficients: Coefficients<F>,
     gradient_rows: Vec<[[Row<F>; 3]; F]>,
     velocity_rows: Vec<[Row<F>; 5]>,
     interleaved: Vec<f64>,
     values: Vec<f64>,
     spectrum: Vec<Complex64>,
-    fine_spectrum: Vec<Complex64>,
 }
 
 impl<const F: usize, const B: usize> LocalPart<F, B> {
@@ -83,49 +92,19 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         let fine_modes = nodes / 2 + 1;
         Self {
             fine_modes,
-            fine_grid: (nodes != coarse).then(|| PeriodicGrid::new(nodes)),
             keeps_mean: [true; F],
             local: grading.map(|grading| LocalSpacing::new(grading, coarse)),
             matrix: CyclicBanded::new(coarse * F),
             mass: (0..grid.modes()).map(|mode| mass_symbol(mode, coarse)).collect(),
             before: vec![1.0; F * grid.modes()],
             after: vec![1.0; F * grid.modes()],
-            coefficients: vec![0.0; (F + F * (F + 1) / 2) * coarse],
+            coefficients: Coefficients::new(nodes, &grid),
             gradient_rows: vec![[[[0.0; F]; 3]; F]; coarse],
             velocity_rows: vec![[[0.0; F]; 5]; coarse],
             interleaved: vec![0.0; coarse * F],
             values: vec![0.0; coarse],
             spectrum: vec![Complex64::default(); grid.modes()],
-            fine_spectrum: vec![Complex64::default(); fine_modes],
             grid,
-        }
-    }
-
-    /// Coefficients at the coarse nodes.
-    fn restrict(&mut self, flow: &mut GradientFlow) {
-        let coarse = self.grid.nodes();
-        let low = self.grid.modes().min(self.fine_modes);
-        for field in 0..F {
-            self.spectrum.fill(Complex64::default());
-            self.spectrum[..low].copy_from_slice(&flow.frozen().spectrum(field)[..low]);
-            let range = field * coarse..(field + 1) * coarse;
-            self.grid.synthesise(&self.spectrum, &mut self.coefficients[range]);
-        }
-        let mut block = F;
-        for a in 0..F {
-            for b in 0..=a {
-                let range = block * coarse..(block + 1) * coarse;
-                let second = flow.energy_terms().jet().second(a, b);
-                if let Some(fine) = &mut self.fine_grid {
-                    fine.transform(second, &mut self.fine_spectrum);
-                    self.spectrum.fill(Complex64::default());
-                    self.spectrum[..low].copy_from_slice(&self.fine_spectrum[..low]);
-                    self.grid.synthesise(&self.spectrum, &mut self.coefficients[range]);
-                } else {
-                    self.coefficients[range].copy_from_slice(second);
-                }
-                block += 1;
-            }
         }
     }
 
@@ -164,11 +143,6 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         }
     }
 
-    fn second(&self, i: usize, a: usize, b: usize) -> f64 {
-        let (low, high) = if a < b { (a, b) } else { (b, a) };
-        self.coefficients[(F + high * (high + 1) / 2 + low) * self.grid.nodes() + i]
-    }
-
     /// Weights of `Δ_s` at node `i`, before the division by A.
     fn difference(&self, i: usize, scale: f64) -> [f64; 3] {
         self.local.as_ref().map_or(DIFFERENCE, |local| local.differences[i]).map(|weight| scale * weight)
@@ -186,10 +160,7 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
         for (keeps, density) in self.keeps_mean.iter_mut().skip(1).zip(flow.density_mobilities()) {
             *keeps = density.conserves_mass();
         }
-        if let (Some(local), Some(metric)) = (&mut self.local, flow.frozen().moving_metric()) {
-            local.set(metric);
-        }
-        self.restrict(flow);
+        self.coefficients.set(flow, &mut self.grid);
         self.set_correction(flow, gamma);
         let scale = (self.grid.nodes() as f64 / flow.frozen().length()).powi(2);
         self.set_stencils(flow.energy_terms().stiffness(), scale);

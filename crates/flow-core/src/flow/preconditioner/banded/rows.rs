@@ -16,7 +16,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
                 for k in 0..3 {
                     let mut entries = [0.0; F];
                     for g in 0..F {
-                        entries[g] = MASS[k] * self.second(i, f, g);
+                        entries[g] = MASS[k] * self.coefficients.second(i, f, g);
                     }
                     entries[f] -= difference[k] * stiffness[f];
                     self.gradient_rows[i][f][k] = entries;
@@ -27,10 +27,10 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
             let mut stencil = [[0.0; F]; 5];
             let difference = self.difference(i, scale);
             for (shift, node) in neighbours(i, nodes).into_iter().enumerate() {
-                let kappa = MASS[shift] * self.coefficients[node];
+                let kappa = MASS[shift] * self.coefficients.field(node, 0);
                 for f in 0..F {
                     let bend = if f == 0 { difference[shift] } else { 0.0 };
-                    let factor = bend + kappa * self.coefficients[f * nodes + node];
+                    let factor = bend + kappa * self.coefficients.field(node, f);
                     for k in 0..3 {
                         for g in 0..F {
                             stencil[shift + k][g] += factor * self.gradient_rows[node][f][k][g];
@@ -57,7 +57,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
                     }
                     let difference = self.difference(i, scale);
                     for (shift, node) in neighbours(i, nodes).into_iter().enumerate() {
-                        let kappa = self.coefficients[node];
+                        let kappa = self.coefficients.field(node, 0);
                         let factor = gamma * (difference[shift] + MASS[shift] * kappa * kappa);
                         for k in 0..5 {
                             for g in 0..F {
@@ -69,8 +69,8 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
                     for k in 0..5 {
                         row[1 + k][f] = square[k];
                     }
-                    let carried = if carries { 0.0 } else { self.coefficients[f * nodes + i] };
-                    let damping = gamma * self.coefficients[i] * carried;
+                    let carried = if carries { 0.0 } else { self.coefficients.field(i, f) };
+                    let damping = gamma * self.coefficients.field(i, 0) * carried;
                     for k in 0..5 {
                         for g in 0..F {
                             row[1 + k][g] += damping * self.velocity_rows[i][k][g];

@@ -1,0 +1,150 @@
+//! The local part of I − γJ on material points, as an equation of the normal velocity. See `THEORY.md`, eq. (O9).
+//!
+//! The unknowns are v, which moves the curvature by δκ = −(`Δ_s` + κ²)v, and what the nodes carry besides, ν = m/g, with
+//! δρ = ν − κρv. The operator is I + γ diag(1, 𝓖)·Bᵀ Hess B with B: (v, ν) ↦ (δκ, δρ), by second differences on the nodes as
+//! they are: symmetric, so that its ratio to the exact one stays bounded however unequal the distances of the nodes are.
+
+mod rows;
+
+use super::banded::{Banded, Coefficients, MOST_NODES};
+use super::fourier::mobility_symbol;
+use super::local_spacing::LocalSpacing;
+use crate::flow::gradient_flow::GradientFlow;
+use crate::geometry::vectors::{mean, multiply, scale};
+use crate::geometry::{Complex64, Grading, PeriodicGrid};
+use crate::operators::{CyclicBanded, FactorisationError};
+
+/// Coefficients of all `F` unknowns at one node.
+type Row<const F: usize> = [f64; F];
+
+/// The band of one flow whose metric is a field.
+#[derive(Debug)]
+pub struct MaterialPart<const F: usize, const B: usize> {
+    fine_modes: usize,
+    grid: PeriodicGrid,
+    /// Whether 𝓚 makes no mean, by field.
+    keeps_mean: [bool; F],
+    local: LocalSpacing,
+    length: f64,
+    matrix: CyclicBanded<B>,
+    /// Root of the ratio of the symbols, by field and mode.
+    roots: Vec<f64>,
+    coefficients: Coefficients<F>,
+    /// δκ, δρ over the nodes i−1, i, i+1; their slopes over i−1 … i+2; the derivatives by them and by the stretch over i−2 … i+2.
+    motion_rows: Vec<[[Row<F>; 3]; F]>,
+    slope_rows: Vec<[[Row<F>; 4]; F]>,
+    gradient_rows: Vec<[[Row<F>; 5]; F]>,
+    stretch_rows: Vec<[Row<F>; 5]>,
+    interleaved: Vec<f64>,
+    values: Vec<f64>,
+    spectrum: Vec<Complex64>,
+}
+
+impl<const F: usize, const B: usize> MaterialPart<F, B> {
+    /// For a flow on `nodes` nodes.
+    pub fn new(nodes: usize) -> Self {
+        let coarse = nodes.clamp(8, MOST_NODES);
+        let grid = PeriodicGrid::new(coarse);
+        Self {
+            fine_modes: nodes / 2 + 1,
+            keeps_mean: [false; F],
+            local: LocalSpacing::new(&Grading::uniform(nodes), coarse),
+            length: 1.0,
+            matrix: CyclicBanded::new(coarse * F),
+            roots: vec![1.0; F * grid.modes()],
+            coefficients: Coefficients::new(nodes, &grid),
+            motion_rows: vec![[[[0.0; F]; 3]; F]; coarse],
+            slope_rows: vec![[[[0.0; F]; 4]; F]; coarse],
+            gradient_rows: vec![[[[0.0; F]; 5]; F]; coarse],
+            stretch_rows: vec![[[0.0; F]; 5]; coarse],
+            interleaved: vec![0.0; coarse * F],
+            values: vec![0.0; coarse],
+            spectrum: vec![Complex64::default(); grid.modes()],
+            grid,
+        }
+    }
+
+    /// Roots of the ratio of the symbols with mean coefficients, by second differences with 𝓑 = Id to the right ones.
+    fn set_roots(&mut self, flow: &mut GradientFlow, gamma: f64) {
+        let (nodes, modes, length) = (self.grid.nodes() as f64, self.grid.modes(), flow.symbol_length());
+        for field in 0..F {
+            let mean = mean(flow.energy_terms().jet().second(field, field)).max(0.0);
+            let stiffness = flow.energy_terms().stiffness()[field];
+            for mode in 0..modes.min(self.fine_modes) {
+                let exact = flow.grid_and_derivative().1.minus_laplacian()[mode];
+                let difference = (2.0 * nodes * (std::f64::consts::PI * mode as f64 / nodes).sin()).powi(2);
+                let band = match field {
+                    0 => (difference / (length * length)).powi(2),
+                    _ => mobility_symbol(flow, field, difference, length),
+                };
+                let symbol = |mobility: f64, laplacian: f64| {
+                    1.0 + gamma * mobility * (stiffness * laplacian / (length * length) + mean)
+                };
+                let right = symbol(mobility_symbol(flow, field, exact, length), exact);
+                self.roots[field * modes + mode] = (symbol(band, difference) / right).sqrt();
+            }
+        }
+    }
+}
+
+impl<const F: usize, const B: usize> Banded for MaterialPart<F, B> {
+    fn modes(&self) -> usize {
+        let modes = self.grid.modes();
+        // The sawtooth of a coarser grid has a sine part, which that grid does not see.
+        if modes < self.fine_modes { modes - 1 } else { modes }
+    }
+
+    fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> Result<(), FactorisationError> {
+        for (keeps, density) in self.keeps_mean.iter_mut().skip(1).zip(flow.density_mobilities()) {
+            *keeps = density.conserves_mass();
+        }
+        self.length = flow.frozen().length();
+        if let Some(metric) = flow.frozen().moving_metric() {
+            self.local.set(metric);
+        }
+        self.coefficients.set(flow, &mut self.grid);
+        self.set_roots(flow, gamma);
+        self.set_stencils(flow.energy_terms().stiffness());
+        self.fill(flow, gamma);
+        self.matrix.factorise()
+    }
+
+    fn apply(&mut self, spectra: &mut [Complex64]) {
+        let (modes, low) = (self.grid.modes(), self.modes());
+        for field in 0..F {
+            let roots = &self.roots[field * modes..][..low];
+            let spectrum = &spectra[field * self.fine_modes..(field + 1) * self.fine_modes];
+            self.spectrum.fill(Complex64::default());
+            for ((target, value), root) in self.spectrum.iter_mut().zip(spectrum).zip(roots) {
+                *target = value * root;
+            }
+            self.grid.synthesise(&self.spectrum, &mut self.values);
+            if field > 0 {
+                multiply(&mut self.values, &self.local.inverse);
+                scale(&mut self.values, 1.0 / self.length);
+            }
+            for (target, value) in self.interleaved.iter_mut().skip(field).step_by(F).zip(&self.values) {
+                *target = *value;
+            }
+        }
+        self.matrix.solve(&mut self.interleaved);
+        for field in 0..F {
+            for (value, target) in self.values.iter_mut().zip(self.interleaved.iter().skip(field).step_by(F))
+            {
+                *value = *target;
+            }
+            if field > 0 {
+                multiply(&mut self.values, &self.local.weight);
+                scale(&mut self.values, self.length);
+            }
+            self.grid.transform(&self.values, &mut self.spectrum);
+            let roots = &self.roots[field * modes..][..low];
+            let spectrum = &mut spectra[field * self.fine_modes..(field + 1) * self.fine_modes];
+            // Where J makes no mean, its local part does: the mean stays as it was.
+            let kept = usize::from(self.keeps_mean[field]);
+            for ((target, value), root) in spectrum.iter_mut().zip(&self.spectrum).zip(roots).skip(kept) {
+                *target = value * root;
+            }
+        }
+    }
+}
