@@ -6,12 +6,13 @@
 True
 """
 
-from importlib.metadata import version as _version
-
+from ._curveflow import VERSION as _VERSION
 from .errors import (
+    ArrayError,
     BugError,
     CurveflowError,
     LadderError,
+    MissingExtraError,
     SceneError,
     SetupError,
     StorageError,
@@ -43,6 +44,17 @@ from .model import (
     Trillium,
     schema,
 )
+from .operators import (
+    Geometry,
+    Rates,
+    energy,
+    flow_map,
+    geometry,
+    helmholtz,
+    incompressibility,
+    normal_force,
+)
+from .provenance import Provenance
 from .result import Result, open
 from .running import Progress, run
 from .scene import Scene, scenes
@@ -55,6 +67,7 @@ __all__ = [
     "Adhesion",
     "Agents",
     "Area",
+    "ArrayError",
     "Bending",
     "BugError",
     "Circle",
@@ -63,16 +76,20 @@ __all__ = [
     "Ellipse",
     "FigureEight",
     "Flow",
+    "Geometry",
     "LadderError",
     "Length",
     "Local",
     "Membrane",
+    "MissingExtraError",
     "Output",
     "Packing",
     "Parametric",
     "Points",
     "Polar",
     "Progress",
+    "Provenance",
+    "Rates",
     "Reference",
     "Regularization",
     "Result",
@@ -90,6 +107,12 @@ __all__ = [
     "TradeoffError",
     "Trillium",
     "WhySlow",
+    "energy",
+    "flow_map",
+    "geometry",
+    "helmholtz",
+    "incompressibility",
+    "normal_force",
     "open",
     "run",
     "scenes",
@@ -97,4 +120,4 @@ __all__ = [
     "tradeoff",
 ]
 
-__version__ = _version("curveflow")
+__version__ = _VERSION

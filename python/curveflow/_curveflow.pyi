@@ -7,7 +7,31 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Record", "Scene", "Simulation", "System", "Tradeoff", "read", "run", "schema", "shipped", "tradeoff"]
+__all__ = [
+    "VERSION",
+    "Record",
+    "Scene",
+    "Simulation",
+    "System",
+    "Tradeoff",
+    "energy",
+    "file_bytes",
+    "flow_map",
+    "geometry",
+    "helmholtz",
+    "incompressibility",
+    "normal_force",
+    "picture",
+    "provenance",
+    "read",
+    "run",
+    "schema",
+    "shipped",
+    "tradeoff",
+]
+
+_Array = NDArray[np.float64]
+VERSION: str
 
 @final
 class Scene:
@@ -17,6 +41,8 @@ class Scene:
     def parse(text: str, source_name: str, changes: list[tuple[str, str]]) -> Scene: ...
     @staticmethod
     def parse_written(text: str, source_name: str) -> Scene: ...
+    @staticmethod
+    def of_record(record: Record) -> Scene: ...
     @property
     def source_name(self) -> str: ...
     @property
@@ -74,8 +100,6 @@ class Simulation:
     @staticmethod
     def resume(path: str | os.PathLike[str]) -> Simulation: ...
     @property
-    def scene(self) -> str: ...
-    @property
     def time(self) -> float: ...
     @property
     def steps(self) -> int: ...
@@ -127,6 +151,24 @@ class Tradeoff:
     def counts(self, name: str) -> NDArray[np.uint64]: ...
     def errors(self, number: int) -> NDArray[np.float64]: ...
 
+def file_bytes(record: Record) -> bytes: ...
+def picture(record: Record, path: str | os.PathLike[str], replace: bool) -> None: ...
+def provenance(record: Record) -> tuple[str, str | None, str, float, str]: ...
+def geometry(
+    position: _Array,
+) -> tuple[_Array, _Array, _Array, _Array, _Array, float, float, int, float]: ...
+def flow_map(
+    curvature: _Array,
+    metric: _Array,
+    normal_velocity: _Array,
+    density: list[_Array],
+    gauge: str,
+    derivative: str,
+) -> tuple[_Array, _Array, list[_Array], _Array]: ...
+def helmholtz(curvature: _Array, metric: _Array, right_hand_side: _Array, derivative: str) -> _Array: ...
+def incompressibility(curvature: _Array, metric: _Array, force: _Array, derivative: str) -> _Array: ...
+def energy(scene: Scene, curvature: _Array, metric: _Array, density: list[_Array]) -> float: ...
+def normal_force(scene: Scene, curvature: _Array, metric: _Array, density: list[_Array]) -> _Array: ...
 def shipped() -> list[tuple[str, str]]: ...
 def read(path: str | os.PathLike[str]) -> Record: ...
 def run(

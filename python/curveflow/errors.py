@@ -28,5 +28,13 @@ class StorageError(CurveflowError, OSError):
     """A file cannot be written, or is not a readable result file. A failed write leaves the target as it was."""
 
 
+class ArrayError(CurveflowError, ValueError):
+    """An array given to an operator cannot be used: the message names it, its shape or value, and what is allowed."""
+
+
+class MissingExtraError(CurveflowError, ImportError):
+    """A call needs a package that comes with an extra of this one; the message is the command that installs it."""
+
+
 class BugError(CurveflowError, RuntimeError):
     """Curveflow broke an assumption of its own; please report it together with the scene."""

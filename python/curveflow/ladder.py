@@ -147,7 +147,7 @@ class Tradeoff:
             figure: where to draw; a new figure of pyplot if none is given.
 
         Raises:
-            ImportError: matplotlib is missing: ``pip install "curveflow[plot]"``.
+            MissingExtraError: matplotlib is missing: ``pip install "curveflow[plot]"``.
         """
         from . import ladder_plot
 

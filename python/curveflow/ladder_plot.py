@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .ladder import Tradeoff
-from .plotting import _plain, _pyplot
+from .plotting import plain, _pyplot
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -23,7 +23,7 @@ def plot(tradeoff: Tradeoff, figure: Figure | None = None) -> Figure:
     """Draw both times into ``figure``, or into a new figure of pyplot, and return it.
 
     Raises:
-        ImportError: matplotlib is missing: ``pip install "curveflow[plot]"``.
+        MissingExtraError: matplotlib is missing: ``pip install "curveflow[plot]"``.
     """
     if figure is None:
         figure = _pyplot().figure(figsize=(11, 5), layout="constrained")
@@ -33,7 +33,7 @@ def plot(tradeoff: Tradeoff, figure: Figure | None = None) -> Figure:
     left.set_ylabel("relative error")
     left.legend(frameon=False, fontsize="small")
     if tradeoff.title:
-        figure.suptitle(_plain(tradeoff.title))
+        figure.suptitle(plain(tradeoff.title))
     return figure
 
 
@@ -45,7 +45,7 @@ def draw(tradeoff: Tradeoff, time: int, axes: Axes) -> None:
         shown = np.where(values > 0, values, np.nan)
         style = _STYLES[number % len(_STYLES)]
         colour = _COLOURS[number % len(_COLOURS)]
-        axes.plot(tradeoff.seconds, shown, style, color=colour, marker="o", markersize=4, label=_plain(name))
+        axes.plot(tradeoff.seconds, shown, style, color=colour, marker="o", markersize=4, label=plain(name))
     tops = np.max(np.nan_to_num(list(errors.values())), axis=0)
     for tolerance, seconds, top in zip(tradeoff.tolerance, tradeoff.seconds, tops, strict=True):
         if top > 0:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .extras import need
 from .result import Array, Result
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ def plot(result: Result, figure: Figure | None = None) -> Figure:
     """Draw the three panels into ``figure``, or into a new figure of pyplot, and return it.
 
     Raises:
-        ImportError: matplotlib is missing: ``pip install "curveflow[plot]"``.
+        MissingExtraError: matplotlib is missing: ``pip install "curveflow[plot]"``.
     """
     if figure is None:
         figure = _pyplot().figure(figsize=(11, 6.2), layout="constrained")
@@ -31,7 +32,7 @@ def plot(result: Result, figure: Figure | None = None) -> Figure:
     draw_state(result, figure.add_subplot(grid[0, 1]))
     draw_history(result, figure.add_subplot(grid[1, 1]))
     if result.title:
-        figure.suptitle(_plain(result.title))
+        figure.suptitle(plain(result.title))
     return figure
 
 
@@ -41,8 +42,8 @@ def draw_curve(result: Result, axes: Axes, frame: int = -1) -> None:
     from matplotlib.collections import LineCollection
 
     name, values = next(iter(result.density.items()), ("curvature", result.curvature))
-    curve, value = _closed(result.position[frame]), _closed(values[frame])
-    axes.plot(*_closed(result.position[0]).T, **_INITIAL, label="initial")
+    curve, value = closed(result.position[frame]), closed(values[frame])
+    axes.plot(*closed(result.position[0]).T, **_INITIAL, label="initial")
     lines = LineCollection(
         list(np.stack([curve[:-1], curve[1:]], axis=1)), linewidths=4, capstyle="round", cmap="viridis"
     )
@@ -54,7 +55,7 @@ def draw_curve(result: Result, axes: Axes, frame: int = -1) -> None:
     axes.set(xlabel="$x$", ylabel="$y$", title=f"$t$ = {result.time[frame]:.4g}")
     axes.set_aspect("equal", adjustable="datalim")
     axes.autoscale_view()
-    label = "curvature $\\kappa$" if name == "curvature" else f"{_plain(name)} density $\\rho$"
+    label = "curvature $\\kappa$" if name == "curvature" else f"{plain(name)} density $\\rho$"
     axes.figure.colorbar(lines, ax=axes, label=label, shrink=0.8)
     axes.legend(loc="upper right", frameon=False)
 
@@ -65,13 +66,13 @@ def draw_state(result: Result, axes: Axes, frame: int = -1) -> None:
     kappa = result.curvature
     if result.density:
         name, rho = next(iter(result.density.items()))
-        axes.plot(_closed(rho[0]), _closed(kappa[0]), **_INITIAL, label="initial")
-        axes.plot(_closed(rho[frame]), _closed(kappa[frame]), "k", linewidth=2, label="final")
+        axes.plot(closed(rho[0]), closed(kappa[0]), **_INITIAL, label="initial")
+        axes.plot(closed(rho[frame]), closed(kappa[frame]), "k", linewidth=2, label="final")
         draw_nodal_lines(result, axes)
-        axes.set(xlabel=f"{_plain(name)} density $\\rho$", ylabel="curvature $\\kappa$")
+        axes.set(xlabel=f"{plain(name)} density $\\rho$", ylabel="curvature $\\kappa$")
     else:
-        axes.plot(_arc_length(result.metric[0]), _closed(kappa[0]), **_INITIAL, label="initial")
-        axes.plot(_arc_length(result.metric[frame]), _closed(kappa[frame]), _PURPLE, label="final")
+        axes.plot(_arc_length(result.metric[0]), closed(kappa[0]), **_INITIAL, label="initial")
+        axes.plot(_arc_length(result.metric[frame]), closed(kappa[frame]), _PURPLE, label="final")
         axes.set(xlabel="arc length $\\sigma$", ylabel="curvature $\\kappa$")
     axes.legend(fontsize="small", frameon=False)
 
@@ -79,23 +80,34 @@ def draw_state(result: Result, axes: Axes, frame: int = -1) -> None:
 def draw_history(result: Result, axes: Axes) -> None:
     """Draw energy (left) and length (right) over time, in decades of time where the run spans several."""
     _pyplot()
-    steps = result.steps
-    if len(steps["time"]) >= len(result.time):
-        time = np.append(result.time[0], steps["time"])
-        energy = np.append(result.energy[0], steps["energy"])
-    else:
-        time, energy = result.time, result.energy
+    time, energy = history(result)
     (left,) = axes.plot(time, energy, color=_BLUE, label="energy")
     right_axes = axes.twinx()
     (right,) = right_axes.plot(result.time, result.length, "--", color=_VERMILION, label="length")
+    scale_time(axes, time)
+    axes.set(xlabel="time $t$", ylabel="energy")
+    right_axes.set_ylabel("length", color=_VERMILION)
+    axes.legend(handles=[left, right], fontsize="small", frameon=False)
+
+
+def history(result: Result) -> tuple[Array, Array]:
+    """Return time and energy of every step, or of the frames where these are more."""
+    steps = result.steps
+    if len(steps["time"]) < len(result.time):
+        return result.time, result.energy
+    time = np.append(result.time[0], steps["time"])
+    return time, np.append(result.energy[0], steps["energy"])
+
+
+def scale_time(axes: Axes, time: Array) -> float:
+    """Make the axis of time logarithmic if the run spans several decades; return where it starts."""
     end = float(time[-1])
     start = max(float(np.min(time[time > 0], initial=end)), end * _MOST_DECADES)
     if end > 10 * start > 0:
         axes.set_xscale("log")
         axes.set_xlim(start, end)
-    axes.set(xlabel="time $t$", ylabel="energy")
-    right_axes.set_ylabel("length", color=_VERMILION)
-    axes.legend(handles=[left, right], fontsize="small", frameon=False)
+        return start
+    return float(time[0])
 
 
 def draw_nodal_lines(result: Result, axes: Axes) -> None:
@@ -116,23 +128,20 @@ def draw_nodal_lines(result: Result, axes: Axes) -> None:
 
 
 def _pyplot() -> Any:
-    try:
-        import matplotlib.pyplot
-    except ImportError as error:
-        raise ImportError('plotting needs matplotlib: pip install "curveflow[plot]"') from error
-    return matplotlib.pyplot
+    return need("matplotlib.pyplot", "plotting", "plot")
 
 
-def _closed(values: Array) -> Array:
+def closed(values: Array) -> Array:
+    """Nodal values with the first one repeated at the end."""
     return np.concatenate([values, values[:1]])
 
 
 def _arc_length(metric: Array) -> Array:
     """Arc length of the nodes from the first one, once around."""
-    closed = _closed(metric)
-    return np.append(0.0, np.cumsum(0.5 * (closed[:-1] + closed[1:]) / len(metric)))
+    around = closed(metric)
+    return np.append(0.0, np.cumsum(0.5 * (around[:-1] + around[1:]) / len(metric)))
 
 
-def _plain(text: str) -> str:
+def plain(text: str) -> str:
     """A text in which matplotlib finds no formula."""
     return text.replace("$", r"\$")

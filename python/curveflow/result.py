@@ -3,25 +3,25 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING
 
 from . import _curveflow
+from .frames import Array, Frames
+from .provenance import Provenance
 from .scene import Scene
 from .why_slow import WhySlow
 
 if TYPE_CHECKING:
+    import xarray
     from matplotlib.figure import Figure
 
-Array = NDArray[np.float64]
+__all__ = ["Array", "Result", "open"]
 
 
-class Result:
+class Result(Frames):
     """A finished or interrupted run: what it saw, how it ended and what it cost.
 
     All arrays are read-only NumPy arrays of ``float64``, made at first use: one entry per saved frame (the first is
@@ -57,12 +57,19 @@ class Result:
 
     @cached_property
     def scene(self) -> Scene:
-        """The scene of the run.
+        """The scene of the run, which makes it again: ``cf.run(result.scene)`` gives the same bits on the same machine.
+
+        It is as given, except that points that were read from a file stand in it: no other file is needed.
 
         Raises:
-            SceneError: the scene in a result file needs a file of points that is not there.
+            SceneError: the scene in a result file is none of this version.
         """
-        return self._scene or Scene.parse(self._record.scene)
+        return self._scene or Scene._of(_curveflow.Scene.of_record(self._record))
+
+    @cached_property
+    def provenance(self) -> Provenance:
+        """What made the result: version, commit, machine, seconds, and what to cite; kept by files."""
+        return Provenance(*_curveflow.provenance(self._record))
 
     @property
     def resolved_scene(self) -> str:
@@ -78,143 +85,6 @@ class Result:
         """
         return MappingProxyType(self._record.counters())
 
-    @cached_property
-    def time(self) -> Array:
-        """Simulated time, shape (frame,), in units of time."""
-        return self._record.values("time")
-
-    @cached_property
-    def energy(self) -> Array:
-        """Energy, the sum of ``energy_terms``, shape (frame,), in units of energy (D3)."""
-        return self._record.values("energy")
-
-    @cached_property
-    def energy_terms(self) -> Mapping[str, Array]:
-        """Energy of each term by its name in the scene, shape (frame,), in units of energy (E1)-(E9)."""
-        names = self._record.energy_terms
-        return MappingProxyType({name: self._record.energy_term(i) for i, name in enumerate(names)})
-
-    @cached_property
-    def dissipation(self) -> Array:
-        """Dissipation, minus the rate of change of the energy, shape (frame,), in energy / time (F6)."""
-        return self._record.values("dissipation")
-
-    @cached_property
-    def energy_balance(self) -> Array:
-        """Energy - initial energy + dissipation integrated over time, shape (frame,), in units of energy.
-
-        Zero up to the error of the integration.
-        """
-        return self._record.values("energy_balance")
-
-    @cached_property
-    def remap_error(self) -> Array:
-        """Energy that changes of the nodes or of the gauge have added so far, shape (frame,)."""
-        return self._record.values("remap_error")
-
-    @cached_property
-    def length(self) -> Array:
-        """Length of the curve, shape (frame,), in units of length."""
-        return self._record.values("length")
-
-    @cached_property
-    def area(self) -> Array:
-        """Enclosed area, positive for a counter-clockwise curve, shape (frame,), in length² (G6)."""
-        return self._record.values("area")
-
-    @cached_property
-    def mass(self) -> Mapping[str, Array]:
-        """Mass of each density by name, its integral over arc length, shape (frame,), in density × length."""
-        names = self._record.densities
-        return MappingProxyType({name: self._record.mass(i) for i, name in enumerate(names)})
-
-    @cached_property
-    def closure_defect(self) -> Array:
-        """Gap between the ends of the curve before projection, shape (frame,), in units of length (G5)."""
-        return self._record.values("closure_defect")
-
-    @cached_property
-    def crossings(self) -> Array:
-        """Number of self-crossings of the curve, a whole number, shape (frame,) (G7)."""
-        return self._record.values("crossings")
-
-    @cached_property
-    def curvature(self) -> Array:
-        """Curvature κ, positive on a circle, shape (frame, node), in 1 / length (G2)."""
-        return self._record.field("curvature")
-
-    @cached_property
-    def parameter(self) -> Array:
-        """Parameter s = i/n of node i out of n, in [0, 1), shape (node,)."""
-        _, nodes = self._record.shape
-        parameter = np.arange(nodes) / nodes
-        parameter.flags.writeable = False
-        return parameter
-
-    @cached_property
-    def metric(self) -> Array:
-        """Metric g, the arc length per unit of :attr:`parameter`, shape (frame, node), in units of length."""
-        return self._record.field("metric")
-
-    @cached_property
-    def position(self) -> Array:
-        """Position (x, y) of the nodes, counter-clockwise, shape (frame, node, 2), in units of length (G4)."""
-        return self._record.position()
-
-    @cached_property
-    def normal_velocity(self) -> Array:
-        """Velocity V along the outward normal, shape (frame, node), in length / time (F4)."""
-        return self._record.field("normal_velocity")
-
-    @cached_property
-    def density(self) -> Mapping[str, Array]:
-        """Each density by name, per unit of arc length, shape (frame, node), in units of density."""
-        names = self._record.densities
-        return MappingProxyType({name: self._record.density(i) for i, name in enumerate(names)})
-
-    @cached_property
-    def fields(self) -> Mapping[str, Array]:
-        """Fields that the scene asks for in ``output.fields``, by name, shape (frame, node); none unless it asks.
-
-        - ``normal_force``: force f on the normal motion, before the mobility, in energy / length² (F3);
-        - ``tangential_velocity``: velocity W of the gauge along the tangent, in length / time (F1);
-        - ``excess_density``: ρ̄ = -H⁻¹(κf) with the force f of all terms but the membrane's (F11): a membrane of
-          compressibility ε that is nearly incompressible has the density 1 + ερ̄; in density / unit of ε;
-        - ``membrane_flux``: flux -∇ρ̄ of that membrane along the tangent, in density / unit of ε / length (F11);
-        - ``energy_density``: energy per length of the local terms, in energy / length (D3).
-        - ``energy_density_bending``, …: the same of each local term (``energy-densities``).
-        - ``normal_velocity_bending``, …: what each term adds to the normal velocity (``normal-velocities``).
-
-        ``tangential_velocity`` and ``membrane_flux`` are at the nodes if ``accuracy.derivative`` is ``"fourier"``, or the
-        program chooses the nodes, else halfway between each node and the next.
-        """
-        names = self._record.fields
-        return MappingProxyType({name: self._record.requested_field(i) for i, name in enumerate(names)})
-
-    @cached_property
-    def diagnostics(self) -> Mapping[str, Array]:
-        """How far the curve is from an incompressible one, by name, shape (frame,).
-
-        With an ``energy.membrane`` of a density ρ that diffuses, under the normal mobility ``identity``; else empty.
-        Both are the root of an integral of squares over arc length, with ρ̄ and 𝓘 of (F11) and (F8) in ``THEORY.md``:
-
-        - ``incompressible_distance``: of ρ - 1 - ερ̄, in density × length^½;
-        - ``velocity_residual``: of V - 𝓘f, the normal velocity less that of the incompressible flow without the
-          membrane term, in velocity × length^½.
-        """
-        names = self._record.diagnostics
-        return MappingProxyType({name: self._record.diagnostic(i) for i, name in enumerate(names)})
-
-    @cached_property
-    def steps(self) -> Mapping[str, NDArray[Any]]:
-        """The log of accepted steps, arrays of shape (step,).
-
-        ``time``, ``energy`` and ``dissipation`` at the end of the step, its ``size``, the ``order`` of the method, the number of ``nodes``,
-        and the attempts rejected before it by cause: ``rejections_error``, ``rejections_solver``,
-        ``rejections_energy_rise`` and ``rejections_not_finite``.
-        """
-        return MappingProxyType(self._record.steps())
-
     def why_slow(self) -> WhySlow:
         """Where the time went, what limits the run, and one thing to try; print it to read it."""
         return WhySlow._of(self._record)
@@ -227,7 +97,7 @@ class Result:
                 are the functions of :mod:`curveflow.plotting`.
 
         Raises:
-            ImportError: matplotlib is missing: ``pip install "curveflow[plot]"``.
+            MissingExtraError: matplotlib is missing: ``pip install "curveflow[plot]"``.
         """
         from . import plotting
 
@@ -244,6 +114,62 @@ class Result:
             StorageError: the file exists or cannot be written; an existing file is then as it was.
         """
         self._record.save(path, replace)
+
+    def picture(self, path: str | os.PathLike[str], replace: bool = False) -> None:
+        """Write the figure of :meth:`plot` as a PNG or SVG file, as ``curveflow plot`` does; needs no matplotlib.
+
+        Args:
+            path: its name, which ends in ``.png`` or ``.svg``.
+            replace: whether an existing file may be replaced.
+
+        Raises:
+            StorageError: the file exists, has another ending, or cannot be written; an existing one is then as it was.
+        """
+        _curveflow.picture(self._record, path, replace)
+
+    def animate(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        field: str | None = None,
+        frames: int | Sequence[int] | None = None,
+        fps: float = 20.0,
+        size: tuple[int, int] = (960, 540),
+        replace: bool = False,
+    ) -> None:
+        """Write a movie, GIF or MP4: the curve moves, coloured by a field, beside its energy over time.
+
+        Args:
+            path: its name, which ends in ``.gif`` or ``.mp4``.
+            field: what colours the curve: ``"curvature"``, ``"metric"``, ``"normal_velocity"``, a density or one of
+                :attr:`fields` by its name; the first density, or else the curvature, if none is given.
+            frames: which saved frames to show: how many, spread evenly over them, or their indices; all if absent.
+            fps: frames per second.
+            size: width and height in pixels, even numbers.
+            replace: whether an existing file may be replaced.
+
+        Raises:
+            MissingExtraError: matplotlib, or for MP4 ffmpeg, is missing: ``pip install "curveflow[movie]"``.
+            StorageError: the file exists, has another ending, or cannot be written; an existing one is then as it was.
+            ValueError: there is no such field or frame, or the size or the rate is out of range.
+        """
+        from . import movie
+
+        movie.animate(self, path, field, frames, fps, size, replace)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Return everything that a result file holds as one dataset.
+
+        Dimensions are ``frame``, ``node``, ``step`` and ``component``; ``time``, ``parameter`` and ``steps_time`` are
+        coordinates. Names, values, units and attributes are those of the file: what stands in a group there has the name
+        of the group before its own, so ``density/protein`` is ``density_protein``. The arrays are copies.
+
+        Raises:
+            MissingExtraError: xarray or h5netcdf is missing: ``pip install "curveflow[data]"``.
+        """
+        from . import dataset
+
+        return dataset.of_record(self._record)
 
     def view(self, path: str | os.PathLike[str], replace: bool = False) -> None:
         """Write a page (HTML) that shows the run moving in any browser, as ``curveflow view`` does.

@@ -6,11 +6,15 @@ import json
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from . import _curveflow
 from .errors import SceneError
 from .model import Accuracy, Curve, Density, EnergyTerm, Flow, Output, Time, reading, writing
 from .model.curve import CURVES
+
+if TYPE_CHECKING:
+    from .result import Result
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,6 +104,15 @@ class Scene:
             known = ", ".join(texts)
             raise SceneError(f"no scene called {name!r} comes with Curveflow; those that do: {known}")
         return cls.parse(texts[name], f"{name}.toml")
+
+    @classmethod
+    def of(cls, result: Result) -> Scene:
+        """Return the scene of a result, which makes the same result again; the same as ``result.scene``.
+
+        Raises:
+            SceneError: the scene in a result file is none of this version.
+        """
+        return result.scene
 
     def with_values(self, values: Mapping[str, object]) -> Scene:
         """Return this scene with other values, like ``--set`` on the command line.

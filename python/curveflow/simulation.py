@@ -90,7 +90,7 @@ class Simulation:
     def scene(self) -> Scene:
         """The scene."""
         if self._scene is None:
-            self._scene = Scene.parse(self._native.scene)
+            self._scene = Scene._of(_curveflow.Scene.of_record(self._native.snapshot()))
         return self._scene
 
     @property

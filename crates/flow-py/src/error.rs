@@ -4,10 +4,13 @@ use std::error::Error;
 use std::fmt::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use flow_core::flow::NodalError;
+use flow_core::geometry::GeometryError;
 use flow_core::output::StorageError;
 use flow_core::output::page::PageError;
+use flow_core::output::picture::PictureError;
 use flow_core::run::tradeoff::{LadderError, TradeoffError};
-use flow_core::run::{SceneError, SetupError};
+use flow_core::run::{EvaluationError, SceneError, SetupError};
 use pyo3::prelude::*;
 
 /// An error with a class of its own in `curveflow.errors`.
@@ -53,6 +56,33 @@ impl PythonError for TradeoffError {
 impl PythonError for PageError {
     fn class(&self) -> &'static str {
         "StorageError"
+    }
+}
+
+impl PythonError for PictureError {
+    fn class(&self) -> &'static str {
+        "StorageError"
+    }
+}
+
+impl PythonError for GeometryError {
+    fn class(&self) -> &'static str {
+        "ArrayError"
+    }
+}
+
+impl PythonError for NodalError {
+    fn class(&self) -> &'static str {
+        "ArrayError"
+    }
+}
+
+impl PythonError for EvaluationError {
+    fn class(&self) -> &'static str {
+        match self {
+            Self::Setup(error) => error.class(),
+            _ => "ArrayError",
+        }
     }
 }
 

@@ -7,6 +7,8 @@
 
 mod arrays;
 mod error;
+mod exports;
+mod operators;
 mod record;
 mod scene;
 mod simulation;
@@ -17,6 +19,14 @@ mod watcher;
 /// The extension module.
 #[pyo3::pymodule]
 mod _curveflow {
+    /// Version of the package.
+    #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+    #[pymodule_export]
+    use super::exports::{file_bytes, picture, provenance};
+    #[pymodule_export]
+    use super::operators::{energy, flow_map, geometry, helmholtz, incompressibility, normal_force};
     #[pymodule_export]
     use super::record::{Record, read, run};
     #[pymodule_export]

@@ -19,7 +19,7 @@ use crate::watcher::Watcher;
 /// A finished or interrupted run.
 #[pyclass(frozen, module = "curveflow._curveflow")]
 pub struct Record {
-    core: core::Record,
+    pub(crate) core: core::Record,
 }
 
 /// Runs `scene`; comes back every few milliseconds for signals, and to call `callback` with the fields of `Progress`

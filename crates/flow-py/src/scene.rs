@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 
 use crate::arrays::{Vector, vector};
 use crate::error::detached;
+use crate::record::Record;
 
 /// A scene that has been checked.
 #[pyclass(frozen, module = "curveflow._curveflow")]
@@ -43,6 +44,13 @@ impl Scene {
     fn parse_written(py: Python<'_>, text: &str, source_name: String) -> PyResult<Self> {
         let core = detached(py, || run::Scene::parse(text, &source_name).map_err(run::SceneError::at_keys))?;
         Ok(Self { core, source_name })
+    }
+
+    /// The scene of a record, as it can be run again.
+    #[staticmethod]
+    fn of_record(py: Python<'_>, record: &Record) -> PyResult<Self> {
+        let core = detached(py, || record.core.to_scene())?;
+        Ok(Self { core, source_name: "scene".to_owned() })
     }
 
     /// Title.

@@ -45,12 +45,6 @@ impl Simulation {
         Ok(Self { core: Mutex::new(core) })
     }
 
-    /// The scene as given.
-    #[getter]
-    fn scene(&self) -> PyResult<String> {
-        Ok(self.lock()?.scene_texts().0.to_owned())
-    }
-
     /// Time of the last accepted state.
     #[getter]
     fn time(&self) -> PyResult<f64> {

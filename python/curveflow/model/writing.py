@@ -34,6 +34,10 @@ def value(key: str, given: object) -> str:
         return "[" + ", ".join(value(key, item) for item in given) + "]"
     if isinstance(given, Table):
         return "{ " + ", ".join(_lines(key, given)) + " }"
+    if _is_function(given):
+        raise TypeError(
+            f"{key}: a function cannot be differentiated; write its expression as text, for example \"kappa^2\""
+        )
     raise TypeError(f"{key}: {_described(given)} is not a number, text, truth value, table of a scene or list of these")
 
 
@@ -91,6 +95,10 @@ def _lines(key: str, given: Table) -> Iterator[str]:
         held: Any = getattr(given, field.name)
         if held is not None:
             yield f"{field.name} = {value(f'{key}.{field.name}', held)}"
+
+
+def _is_function(given: Any) -> bool:
+    return callable(given)
 
 
 def _described(given: object) -> str:

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use flow_core::output::hdf5_file;
-use flow_core::run::{Record, Rejections, Share, StopReason, WhySlow};
+use flow_core::run::{Provenance, Record, Rejections, Share, StopReason, WhySlow};
 use serde_json::{Map, Value, json};
 
 use crate::error::CliError;
@@ -112,6 +112,10 @@ fn summary(record: &Record) -> Vec<(String, Value)> {
     row("rejections_energy_rise", json!(energy_rise));
     row("rejections_not_finite", json!(not_finite));
     row("integration_seconds", number(counters.integration_seconds));
+    let Provenance { version, commit, machine, .. } = &record.provenance;
+    row("curveflow_version", json!(version));
+    row("commit", json!(commit.as_deref().unwrap_or("unknown")));
+    row("machine", json!(machine));
     rows
 }
 

@@ -1,16 +1,22 @@
-//! Arguments that name a scene: a file or a shipped one, and changes to it.
+//! Arguments that name a scene: a file, a shipped one, or that of a result, and changes to it.
 
 use std::path::{Path, PathBuf};
 
-use flow_core::run::{Scene, SetupError};
+use flow_core::output::hdf5_file;
+use flow_core::run::{Provenance, Record, Scene, SceneError, SetupError};
 
 use crate::error::CliError;
+use crate::print;
 
 /// Which scene, and what to change in it.
 #[derive(Debug, clap::Args)]
 pub struct SceneArgs {
     /// Scene file, or the name of a shipped scene (see `curveflow scenes`).
-    pub scene: PathBuf,
+    #[arg(required_unless_present = "from")]
+    pub scene: Option<PathBuf>,
+    /// Take the scene of this result file: on the same machine, the same program gives the same states again.
+    #[arg(long, value_name = "RESULT.h5", conflicts_with = "scene")]
+    pub from: Option<PathBuf>,
     /// Change a value of the scene, e.g. `--set accuracy.tolerance=1e-6`; may be repeated.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
     pub set: Vec<(String, String)>,
@@ -19,22 +25,41 @@ pub struct SceneArgs {
 impl SceneArgs {
     /// Reads and checks the scene. A file wins over a shipped scene of the same name.
     pub fn read(&self) -> Result<Scene, CliError> {
-        let scene = match shipped(&self.scene) {
-            Some((name, text)) => Scene::parse_with(text, name, &self.set),
-            None => Scene::read_with(&self.scene, &self.set),
+        let scene = match (&self.from, shipped(self.name())) {
+            (Some(result), _) => of_result(&hdf5_file::read(result)?, &self.set),
+            (None, Some((name, text))) => Scene::parse_with(text, name, &self.set),
+            (None, None) => Scene::read_with(self.name(), &self.set),
         };
         scene.map_err(|error| CliError::InvalidScene(Box::new(error)))
     }
 
     /// The error of a scene that reads well and makes no initial state.
     pub fn unusable(&self, reason: SetupError) -> CliError {
-        CliError::Unusable { scene: self.scene.clone(), reason }
+        CliError::Unusable { scene: self.name().to_owned(), reason }
     }
 
     /// Name for what is made of the scene: the file's name without its ending.
     pub fn stem(&self) -> PathBuf {
-        PathBuf::from(self.scene.file_stem().unwrap_or(self.scene.as_os_str()))
+        PathBuf::from(self.name().file_stem().unwrap_or(self.name().as_os_str()))
     }
+
+    /// The scene or result that was named; clap sees to it that one was.
+    fn name(&self) -> &Path {
+        self.scene.as_deref().or(self.from.as_deref()).unwrap_or(Path::new(""))
+    }
+}
+
+/// The scene of a result. Says so if another program, or another machine, made it.
+fn of_result(record: &Record, set: &[(String, String)]) -> Result<Scene, SceneError> {
+    let here = Provenance::here();
+    if record.provenance != here {
+        let there = &record.provenance;
+        print::talk(&format!(
+            "the result was made by {there}, this is {here}: expect differences in the last digits"
+        ));
+    }
+    let scene = record.to_scene()?;
+    if set.is_empty() { Ok(scene) } else { Scene::parse_with(scene.text(), "the scene of the result", set) }
 }
 
 fn shipped(path: &Path) -> Option<(&'static str, &'static str)> {

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::spelling::ours;
+
 /// Why an expression could not be read or differentiated.
 ///
 /// A `column` counts characters of the text from 1.
@@ -32,6 +34,9 @@ pub enum ExpressionError {
     /// A number that a 64-bit float cannot hold.
     #[error("column {column}: the number `{literal}` is outside the range 1e-308 to 1e308; rescale it")]
     NumberOutOfRange { column: usize, literal: String },
+    /// A power as other languages write it.
+    #[error("column {column}: a power is written `^`, as in `kappa^2`, not `**`")]
+    DoubleStar { column: usize },
     /// A name that is neither a variable nor a function.
     #[error("column {column}: unknown name `{name}`{}; allowed: {}", DidYouMean(suggestion.as_deref()), allowed.join(", "))]
     UnknownName { name: String, column: usize, suggestion: Option<String>, allowed: Vec<String> },
@@ -49,27 +54,16 @@ impl fmt::Display for DidYouMean<'_> {
     }
 }
 
-/// What others write, and what it is called here.
-const ALIASES: [(&str, &str); 7] = [
-    ("log", "ln"),
-    ("fabs", "abs"),
-    ("κ", "kappa"),
-    ("ρ", "rho"),
-    ("φ", "phi"),
-    ("π", "pi"),
-    ("theta", "phi"),
-];
 /// Variables of expressions elsewhere in a scene: whoever writes one meant it.
 const VARIABLES: [&str; 5] = ["s", "phi", "q", "kappa", "rho"];
 
 /// The error for `name`, with the nearest allowed name if one is close.
 #[cold]
 pub(super) fn unknown_name(name: &str, column: usize, allowed: &[&str]) -> ExpressionError {
-    let alias = ALIASES.iter().find(|(other, here)| *other == name && allowed.contains(here));
-    let suggestion = match alias {
-        Some((_, here)) => Some((*here).to_owned()),
+    let suggestion = match ours(name, allowed) {
         None if VARIABLES.contains(&name) => None,
         None => nearest(name, allowed).map(str::to_owned),
+        ours => ours,
     };
     let allowed = allowed.iter().map(|&name| name.to_owned()).collect();
     ExpressionError::UnknownName { name: name.to_owned(), column, suggestion, allowed }

@@ -1,6 +1,7 @@
 //! Cuts the text of an expression into numbers, names and signs.
 
 use super::error::ExpressionError;
+use super::spelling;
 
 /// One piece of the text.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,6 +36,11 @@ impl<'a> Lexer<'a> {
     /// The text between two byte offsets.
     pub(super) fn slice(&self, start: usize, end: usize) -> &'a str {
         &self.text[start..end]
+    }
+
+    /// The name from `start` to the last token read, with the attributes that follow it after points.
+    pub(super) fn dotted(&self, start: usize) -> &'a str {
+        spelling::dotted(self.text, start, self.position)
     }
 
     /// The byte offset just behind the last token read.

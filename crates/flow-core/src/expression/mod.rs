@@ -30,6 +30,7 @@ mod lexer;
 mod lower;
 mod parse;
 mod program;
+mod spelling;
 mod symbolic;
 mod tape;
 mod vector_math;

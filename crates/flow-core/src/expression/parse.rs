@@ -20,7 +20,6 @@ const MAX_LENGTH: usize = 4096;
 const MAX_DEPTH: usize = 64;
 
 const OPERAND: &str = "a number, a name, a function or `(`";
-const OPERAND_AFTER_STAR: &str = "a number, a name, a function or `(`; a power is written `^`";
 
 /// The graph of `text`, operands first, the value last.
 pub(super) fn parse(text: &str, variables: &[&str]) -> Result<Vec<Node>, ExpressionError> {
@@ -82,9 +81,10 @@ impl<'a> Parser<'a> {
                 Token::Sign('/') => Operator::Divide,
                 _ => return Ok(left),
             };
+            let star = self.start;
             self.advance()?;
-            if operator == Operator::Multiply && self.token == Token::Sign('*') {
-                return Err(self.unexpected(OPERAND_AFTER_STAR));
+            if operator == Operator::Multiply && self.token == Token::Sign('*') && self.start == star + 1 {
+                return Err(ExpressionError::DoubleStar { column: self.lexer.column(star) });
             }
             let right = self.signed()?;
             left = self.graph.binary(operator, left, right)?;
@@ -147,6 +147,7 @@ impl<'a> Parser<'a> {
         } else {
             let functions = NAMED_FUNCTIONS.iter().map(|(name, _)| *name);
             let allowed: Vec<&str> = self.variables.iter().copied().chain(["pi"]).chain(functions).collect();
+            let name = self.lexer.dotted(self.start);
             return Err(unknown_name(name, column, &allowed));
         };
         self.advance()?;
@@ -205,7 +206,7 @@ mod tests {
         assert_eq!(message("2 kappa"), format!("column 3: found `kappa`, {operator}"));
         assert_eq!(message("kappa)"), format!("column 6: found `)`, {operator}"));
         assert_eq!(message("1 + * 2"), format!("column 5: found `*`, expected {OPERAND}"));
-        assert_eq!(message("2**3"), format!("column 3: found `*`, expected {OPERAND_AFTER_STAR}"));
+        assert_eq!(message("2**3"), "column 2: a power is written `^`, as in `kappa^2`, not `**`");
         assert_eq!(message("1 +"), format!("column 4: the expression ends here, expected {OPERAND}"));
         assert_eq!(
             message("(1"),

@@ -10,6 +10,7 @@ mod graded_energy;
 mod gradient_flow;
 mod moving_metric_energy;
 mod nodal;
+mod nodal_curve;
 mod normal_mobility;
 mod preconditioner;
 mod regrade;
@@ -23,6 +24,8 @@ pub use energy_sum::{EnergySum, IntrinsicGradient};
 pub use excess_density::ExcessDensity;
 pub use flow_map::FlowMap;
 pub use gradient_flow::{EvaluationCost, GradientFlow, PartCosts, Rate};
+pub use nodal_curve::{NodalCurve, NodalError, NodalGauge, NodalRates};
+pub(crate) use nodal_curve::{check, nodal_state};
 pub use normal_mobility::{
     AreaPreserving, Identity, Incompressible, IncompressibleAreaPreserving, Kept, MobilityError,
     NormalMobility, SurfaceDiffusion,

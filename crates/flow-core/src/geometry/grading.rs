@@ -263,7 +263,7 @@ impl Grading {
 }
 
 /// Symbol of the shift by half a node distance; the sawtooth vanishes between the nodes.
-fn half_step(grid: &PeriodicGrid, mode: usize) -> Complex64 {
+pub(super) fn half_step(grid: &PeriodicGrid, mode: usize) -> Complex64 {
     if Some(mode) == grid.sawtooth_mode() {
         return Complex64::default();
     }

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::provenance::Provenance;
+use super::scene::{Curve, Scene, SceneError, Shape};
 use super::seconds::Seconds;
 use crate::integrator::{Counters, Rejections};
 
@@ -157,6 +159,8 @@ pub struct Record {
     pub seconds: Seconds,
     /// Why the run stopped.
     pub stop_reason: StopReason,
+    /// What made the record.
+    pub provenance: Provenance,
 }
 
 impl Record {
@@ -173,4 +177,26 @@ impl Record {
     pub fn nodes(&self) -> usize {
         self.frames.last().map_or(0, |frame| frame.curvature.len())
     }
+
+    /// The scene of the run, to run it again: as given, except that points which were read from a file stand in it.
+    ///
+    /// # Errors
+    /// [`SceneError`] if the text is not a scene of this version.
+    pub fn to_scene(&self) -> Result<Scene, SceneError> {
+        const NAME: &str = "the scene of the result";
+        if !names_a_file(&self.scene) {
+            return Scene::parse(&self.scene, NAME);
+        }
+        let Curve { shape, turning_number } = Scene::parse(&self.resolved_scene, NAME)?.curve;
+        let Shape::Points { points } = shape else { return Scene::parse(&self.scene, NAME) };
+        let curve =
+            format!("{{ shape = \"points\", turning_number = {turning_number}, points = {points:?} }}");
+        Scene::parse_with(&self.scene, NAME, &[("curve".to_owned(), curve)])
+    }
+}
+
+/// Whether the points of the curve are in another file.
+fn names_a_file(scene: &str) -> bool {
+    let table: Option<toml::Table> = scene.parse().ok();
+    table.is_some_and(|table| table.get("curve").is_some_and(|curve| curve.get("file").is_some()))
 }

@@ -39,6 +39,8 @@ pub struct Setup {
     pub mesh: Mesh,
     /// Chooses them, if the scene leaves that to the program.
     pub adaptation: Option<Adaptation>,
+    /// What the energies refer to.
+    pub(super) initial: Initial,
 }
 
 /// Largest gap, relative to the length, that is closed on input without complaint.
@@ -64,7 +66,17 @@ impl Setup {
         let placement = Placement { angle: curve.angle, centre: curve.centre };
         let gauges = Gauges::new(scene, initial, &mesh)?;
         let adaptation = Adaptation::of(scene);
-        Ok(Self { membrane, state, placement, diagnostics, closure_defect, gauges, mesh, adaptation })
+        Ok(Self {
+            membrane,
+            state,
+            placement,
+            diagnostics,
+            closure_defect,
+            gauges,
+            mesh,
+            adaptation,
+            initial,
+        })
     }
 }
 

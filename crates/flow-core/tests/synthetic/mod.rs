@@ -3,7 +3,9 @@
 
 use std::f64::consts::TAU;
 
-use flow_core::run::{Counters, EvaluationSeconds, Frame, Record, Rejections, Seconds, StepLog, StopReason};
+use flow_core::run::{
+    Counters, EvaluationSeconds, Frame, Provenance, Record, Rejections, Seconds, StepLog, StopReason,
+};
 
 /// A record of `frames` states with `nodes` nodes; without densities if `densities` is empty.
 pub fn record(frames: usize, nodes: usize, densities: &[&str]) -> Record {
@@ -47,6 +49,7 @@ pub fn record(frames: usize, nodes: usize, densities: &[&str]) -> Record {
         },
         seconds: seconds(),
         stop_reason: StopReason::Equilibrium,
+        provenance: Provenance::here(),
     }
 }
 

@@ -6,14 +6,7 @@ use hdf5_metno::{File, H5Type, Location};
 use super::dataset::{building, text, write_text};
 use super::layout::{CAUSES, CONVENTIONS, COUNTERS};
 use crate::output::StorageError;
-use crate::run::Record;
-
-const CITATION: &str = concat!(
-    "Curveflow ",
-    env!("CARGO_PKG_VERSION"),
-    ". Model: K. Promislow, T. Vu and B. Wetton, ",
-    "Gradient Flows of Interfacial Energies: Curvature Agents and Incompressibility."
-);
+use crate::run::{Provenance, Record};
 
 /// Writes all attributes of the file itself.
 pub(super) fn write(file: &File, record: &Record) -> Result<(), StorageError> {
@@ -28,12 +21,13 @@ pub(super) fn write(file: &File, record: &Record) -> Result<(), StorageError> {
     write_names(file, "diagnostics", &record.diagnostics)?;
     // Tells xarray which variables are coordinates.
     write_text(file, "coordinates", "time parameter")?;
-    write_text(file, "curveflow_version", env!("CARGO_PKG_VERSION"))?;
-    if let Some(commit) = option_env!("CURVEFLOW_COMMIT") {
+    let Provenance { version, commit, machine, citation } = &record.provenance;
+    write_text(file, "curveflow_version", version)?;
+    if let Some(commit) = commit {
         write_text(file, "commit", commit)?;
     }
-    write_text(file, "machine", &machine())?;
-    write_text(file, "citation", CITATION)?;
+    write_text(file, "machine", machine)?;
+    write_text(file, "citation", citation)?;
     for counter in COUNTERS {
         write_number(file, counter.name, (counter.get)(&record.counters))?;
     }
@@ -66,11 +60,6 @@ fn texts(record: &Record) -> [(&'static str, &str); 5] {
         ("stop_reason", record.stop_reason.name()),
         ("message", record.stop_reason.message()),
     ]
-}
-
-fn machine() -> String {
-    let processors = std::thread::available_parallelism().map_or(0, usize::from);
-    format!("{} {}, {processors} processors", std::env::consts::OS, std::env::consts::ARCH)
 }
 
 /// Writes a number as an attribute of `owner`.

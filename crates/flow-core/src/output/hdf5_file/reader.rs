@@ -13,7 +13,7 @@ use super::layout::{
 use super::provenance::{checksum, rejections_name};
 use super::seconds;
 use crate::output::{Operation, StorageError};
-use crate::run::{Counters, Frame, Record, Rejections, Seconds, StepLog, StopReason};
+use crate::run::{Counters, Frame, Provenance, Record, Rejections, Seconds, StepLog, StopReason};
 
 /// The first bytes of every HDF5 file.
 const SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
@@ -76,6 +76,7 @@ impl Content {
             counters: self.counters()?,
             seconds: Seconds::default(),
             stop_reason: self.stop_reason()?,
+            provenance: self.provenance()?,
         };
         if self.number::<u64>("text_checksum")? != checksum(&record) {
             return Err(("the texts in its attributes".to_owned(), "the checksum differs".into()));
@@ -149,6 +150,18 @@ impl Content {
             .into_iter()
             .find(|reason| reason.name() == name)
             .ok_or_else(|| ("stop_reason".to_owned(), format!("it is \"{name}\"").into()))
+    }
+
+    fn provenance(&self) -> Result<Provenance, Failure> {
+        let names =
+            self.file.attr_names().map_err(|source| ("the names of its attributes".to_owned(), source))?;
+        let commit = names.iter().any(|name| name == "commit").then(|| self.text("commit"));
+        Ok(Provenance {
+            version: self.text("curveflow_version")?,
+            commit: commit.transpose()?,
+            machine: self.text("machine")?,
+            citation: self.text("citation")?,
+        })
     }
 
     /// All values of a dataset, `expected` of them unless that is not known yet.

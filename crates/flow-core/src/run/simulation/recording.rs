@@ -46,6 +46,7 @@ impl Simulation {
             counters: self.counters_with_time(),
             seconds: Seconds::default(),
             stop_reason: self.stopped.clone().unwrap_or(StopReason::Interrupted),
+            provenance: self.record.provenance.clone(),
             title: self.record.title.clone(),
             scene: self.record.scene.clone(),
             resolved_scene: self.record.resolved_scene.clone(),

@@ -10,6 +10,7 @@ use crate::integrator::{
 use crate::run::equilibrium::Equilibrium;
 use crate::run::frames::{Start, frame};
 use crate::run::membrane::Membrane;
+use crate::run::provenance::Provenance;
 use crate::run::record::{Record, StepLog, StopReason};
 use crate::run::scene::{Gauge, Scene};
 use crate::run::schedule::frame_times;
@@ -35,6 +36,7 @@ impl Simulation {
             gauges,
             mesh,
             adaptation,
+            ..
         } = Setup::new(scene)?;
         let finish = membrane.finish(0.0, &mut state);
         let Finish::Good { energy, dissipation, integral_rates } = finish else {
@@ -86,6 +88,7 @@ impl Simulation {
             counters,
             seconds: Seconds::default(),
             stop_reason: StopReason::EndTime,
+            provenance: Provenance::here(),
         };
         Ok(Self {
             equilibrium: scene

@@ -55,6 +55,7 @@ pub(super) fn halfway(record: &Record) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::super::provenance::Provenance;
     use super::super::super::record::{Frame, StepLog};
     use super::super::super::seconds::Seconds;
     use super::*;
@@ -79,6 +80,7 @@ mod tests {
             counters: Counters::default(),
             seconds: Seconds::default(),
             stop_reason: StopReason::EndTime,
+            provenance: Provenance::here(),
         }
     }
 

@@ -1,0 +1,48 @@
+//! The grading of a curve whose metric is known at its nodes. See `THEORY.md`, eq. (D8).
+
+use super::grading::{Grading, GradingError, half_step};
+use super::grid::{Complex64, PeriodicGrid};
+
+impl Grading {
+    /// The grading w = g/⟨g⟩ of the nodal `metric` g, at the midpoints by trigonometric interpolation.
+    ///
+    /// # Errors
+    /// [`GradingError::NotPositive`] if the metric, or its interpolant between two nodes, is not positive.
+    pub fn of_metric(metric: &[f64]) -> Result<Self, GradingError> {
+        let nodes = metric.len();
+        let mut grid = PeriodicGrid::new(nodes);
+        let mut spectrum = vec![Complex64::default(); grid.modes()];
+        grid.transform(metric, &mut spectrum);
+        spectrum.iter_mut().enumerate().for_each(|(mode, value)| *value *= half_step(&grid, mode));
+        let mut midpoints = vec![0.0; nodes];
+        grid.synthesise(&spectrum, &mut midpoints);
+        let samples: Vec<f64> =
+            metric.iter().zip(&midpoints).flat_map(|(node, next)| [*node, *next]).collect();
+        Self::new(&samples)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+
+    #[test]
+    fn it_is_the_grading_that_the_metric_was_made_of() {
+        for nodes in [32_usize, 45] {
+            let weight = |s: f64| 1.0 + 0.6 * (2.0 * TAU * s).cos();
+            let samples: Vec<f64> = (0..2 * nodes).map(|i| weight(i as f64 / (2 * nodes) as f64)).collect();
+            let grading = Grading::new(&samples).unwrap();
+            let metric: Vec<f64> = grading.weight().iter().map(|weight| 7.5 * weight).collect();
+            let found = Grading::of_metric(&metric).unwrap();
+            let pairs = found.at_midpoints().iter().zip(grading.at_midpoints());
+            assert!(
+                pairs.chain(found.weight().iter().zip(grading.weight())).all(|(a, b)| (a - b).abs() < 1e-14)
+            );
+        }
+        let mut metric = vec![1.0; 32];
+        metric[3] = -1.0;
+        assert!(matches!(Grading::of_metric(&metric), Err(GradingError::NotPositive { .. })));
+    }
+}

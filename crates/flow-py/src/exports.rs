@@ -1,0 +1,38 @@
+//! What can be made of a record besides arrays: the bytes of its file, its picture, where it comes from.
+
+use std::path::PathBuf;
+
+use flow_core::output::picture::{NodalLines, Options, PictureError, plot};
+use flow_core::output::{StorageError, hdf5_file};
+use flow_core::run::{Provenance, nodal_polylines};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+use crate::error::detached;
+use crate::record::Record;
+
+/// The bytes of the result file of `record`.
+#[pyfunction]
+pub fn file_bytes<'py>(py: Python<'py>, record: &Record) -> PyResult<Bound<'py, PyBytes>> {
+    let bytes = detached::<_, StorageError>(py, || hdf5_file::to_bytes(&record.core))?;
+    Ok(PyBytes::new(py, &bytes))
+}
+
+/// Draws `record` into a PNG or SVG file.
+#[pyfunction]
+pub fn picture(py: Python<'_>, record: &Record, path: PathBuf, replace: bool) -> PyResult<()> {
+    detached::<_, PictureError>(py, || {
+        let lines = nodal_polylines(&record.core);
+        let nodal_lines =
+            lines.map(|[preferred_curvature, low, high]| NodalLines { preferred_curvature, low, high });
+        let options = Options { replace, nodal_lines, ..Options::default() };
+        plot(&record.core, &path, &options)
+    })
+}
+
+/// Version, commit, machine, seconds of integration and citation of `record`.
+#[pyfunction]
+pub fn provenance(record: &Record) -> (String, Option<String>, String, f64, String) {
+    let Provenance { version, commit, machine, citation } = record.core.provenance.clone();
+    (version, commit, machine, record.core.counters.integration_seconds, citation)
+}
