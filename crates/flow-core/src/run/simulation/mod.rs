@@ -10,7 +10,7 @@ use std::time::Instant;
 pub use resume::{Memory, ResumeError};
 
 use crate::geometry::Layout;
-use crate::integrator::{Adaptive, Bdf, Counters, StepReport, Stepper};
+use crate::integrator::{Adaptive, Bdf, Counters, IntegrationError, StepReport, Stepper};
 use crate::run::diagnostics::Diagnostics;
 use crate::run::equilibrium::Equilibrium;
 use crate::run::frames::{Start, frame};
@@ -47,6 +47,7 @@ pub struct Simulation {
     /// Self-crossings at the start, if more of them end the run.
     allowed_crossings: Option<usize>,
     stopped: Option<StopReason>,
+    failure: Option<IntegrationError>,
 }
 
 /// Runs `scene` to its end and returns its record.
@@ -73,7 +74,10 @@ impl Simulation {
         let fault = self.membrane.flow().fault();
         self.record.counters.integration_seconds += clock.elapsed().as_secs_f64();
         match (report, fault) {
-            (Err(error), _) => self.stop(StopReason::Failed(error.to_string())),
+            (Err(error), _) => {
+                self.failure = Some(error);
+                self.stop(StopReason::Failed(error.to_string()));
+            }
             (Ok(report), fault) => {
                 self.closure_defect = self.membrane.closure_defect();
                 self.log(&report);

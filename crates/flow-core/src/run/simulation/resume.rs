@@ -3,7 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::Simulation;
-use crate::integrator::{self, Adaptive, AdaptiveOptions, Bdf, Counters, Problem, Rest, Stepper};
+use crate::integrator::{
+    self, Adaptive, AdaptiveOptions, Bdf, Counters, IntegrationError, Problem, Rest, Stepper,
+};
 use crate::run::equilibrium::Equilibrium;
 use crate::run::frames::Start;
 use crate::run::membrane::MembraneMemory;
@@ -92,6 +94,12 @@ impl Simulation {
     #[must_use]
     pub fn stop_reason(&self) -> Option<&StopReason> {
         self.stopped.as_ref()
+    }
+
+    /// Why the time integration stopped before its end, if it did.
+    #[must_use]
+    pub fn failure(&self) -> Option<IntegrationError> {
+        self.failure
     }
 
     /// Log of the steps so far.

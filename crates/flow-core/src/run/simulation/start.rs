@@ -87,6 +87,7 @@ impl Simulation {
             diagnostics,
             record,
             stopped: None,
+            failure: None,
         })
     }
 }

@@ -20,6 +20,8 @@ use crate::operators::{CyclicBanded, FactorisationError};
 
 /// More nodes make the assembled sixth-order band inaccurate, and buy nothing.
 const MOST_NODES: usize = 1024;
+/// A cyclic band of F fields, of half-width 4F − 1, has three times as many rows at least.
+const FEWEST_NODES: usize = 12;
 
 /// A banded approximate inverse acting on spectra.
 pub trait Banded: Debug + Send {
@@ -31,10 +33,10 @@ pub trait Banded: Debug + Send {
     fn apply(&mut self, spectra: &mut [Complex64]);
 }
 
-/// Builds the solver for the number of fields, up to four; none beyond, and none if the normal mobility is a
-/// differential operator: it widens the band.
+/// Builds the solver for the number of fields, up to four; none beyond, none on a handful of nodes, and none if the normal
+/// mobility is a differential operator: it widens the band.
 pub fn build(flow: &GradientFlow) -> Option<Box<dyn Banded>> {
-    if flow.normal_mobility().order() > 0 {
+    if flow.normal_mobility().order() > 0 || flow.layout().nodes() < FEWEST_NODES {
         return None;
     }
     let (nodes, grading) = (flow.layout().nodes(), flow.grading().map(Arc::as_ref));
