@@ -1,10 +1,12 @@
 //! Scenes drawn at random from the ends of all ranges at once, within what the reader accepts.
 
+use std::fmt::Write as _;
+
 use flow_core::run::Scene;
 
 use super::outcome::{Outcome, measure};
 
-/// A small generator of random numbers (Steele, Lea & Flood, OOPSLA 2014, "SplitMix").
+/// A small generator of random numbers (Steele, Lea & Flood, OOPSLA 2014, `SplitMix`).
 #[derive(Clone, Debug)]
 pub struct Random(u64);
 
@@ -77,7 +79,7 @@ pub fn text(random: &mut Random) -> String {
         };
         let table = term.split(['.', ' ']).next().unwrap_or_default().to_owned();
         if !energy.contains(&format!("energy.{table}")) {
-            energy.push_str(&format!("energy.{term}\n"));
+            let _ = writeln!(energy, "energy.{term}"); // into a string it cannot fail
         }
     }
     format!(
