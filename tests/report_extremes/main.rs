@@ -10,7 +10,7 @@ use std::process::ExitCode;
 use curveflow_tests::report::{Table, command};
 
 /// All tables, in the order of the document.
-const TABLES: [Table; 13] = [
+const TABLES: [Table; 14] = [
     ("epsilon", tables::epsilon),
     ("delta", tables::delta),
     ("penalty", tables::penalty),
@@ -24,6 +24,7 @@ const TABLES: [Table; 13] = [
     ("scaling", tables::scaling),
     ("round-off", tables::round_off),
     ("sweep", tables::sweep),
+    ("long", tables::long),
 ];
 
 fn main() -> ExitCode {

@@ -4,18 +4,26 @@ use std::collections::BTreeMap;
 
 use curveflow_tests::extremes::sweep::{Random, draw};
 use curveflow_tests::extremes::{
-    Case, End, Outcome, data, parameters, round_off as rounding, scaling as scales, times,
+    Case, End, Outcome, Size, data, parameters, round_off as rounding, scaling as scales, times,
 };
 use curveflow_tests::report::markdown;
 
+/// The lines of the short runs.
 fn cases(cases: &[Case]) -> String {
-    let rows: Vec<_> = cases.iter().map(row).collect();
+    lines(cases, Size::Small)
+}
+
+fn lines(cases: &[Case], size: Size) -> String {
+    let rows: Vec<_> = cases.iter().filter(|case| case.size == size).map(row).collect();
     let head = ["case", "nodes", "ends", "steps", "rise of 𝓕", "balance", "mass defect", "error"];
     markdown(&head, &rows)
 }
 
 fn row(case: &Case) -> Vec<String> {
-    let (outcome, error) = case.measure_with_error();
+    let (outcome, error) = match case.size {
+        Size::Small => case.measure_with_error(),
+        Size::Large => (case.measure(), None),
+    };
     let broken = outcome.broken_law();
     let end = if outcome.end == case.expected && broken.is_none() {
         name(outcome.end).to_owned()
@@ -94,6 +102,18 @@ pub fn densities() -> String {
     cases(&data::densities())
 }
 
+/// The long runs of all ladders.
+pub fn long() -> String {
+    let ladders = [
+        parameters::epsilon(),
+        parameters::delta(),
+        parameters::penalty(),
+        parameters::nodes(),
+        data::curves(),
+    ];
+    lines(&ladders.concat(), Size::Large)
+}
+
 /// The distance of scaled runs from the one of radius 1.
 pub fn scaling() -> String {
     let unit = scales::at(1.0);
@@ -122,7 +142,7 @@ pub fn round_off() -> String {
     markdown(&head, &rows)
 }
 
-const DRAWN: usize = 300;
+const DRAWN: usize = 60;
 
 /// How many random scenes ended how, and the largest values of what the laws bound.
 pub fn sweep() -> String {
