@@ -3,7 +3,7 @@
 use curveflow_tests::physics::incompressible_limit::{self, LARGEST_FITTED, STARTS};
 use curveflow_tests::physics::stiffness::{self, EPSILONS, TOLERANCES};
 
-use crate::markdown;
+use curveflow_tests::report::markdown;
 
 /// Every ε of every start.
 pub fn ladder() -> String {

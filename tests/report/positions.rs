@@ -6,7 +6,7 @@ use curveflow_tests::physics::figure_eight::{DOUBLE, double_circle, elastica, pr
 use curveflow_tests::physics::three_flows::{self, FLOWS};
 use curveflow_tests::physics::{adhesion, labelled_pieces};
 
-use crate::markdown;
+use curveflow_tests::report::markdown;
 
 /// Length and shape at t = 0.01.
 pub fn three_flows() -> String {

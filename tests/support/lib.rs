@@ -1,7 +1,9 @@
 //! What the physics tests share: scenes, runs, and the checks that every run must pass.
 
+pub mod extremes;
 pub mod hostile;
 pub mod physics;
+pub mod report;
 
 use flow_core::run::{Frame, Quiet, Record, Scene, StopReason};
 

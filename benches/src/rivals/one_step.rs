@@ -159,9 +159,12 @@ impl Stepper for OneStep {
     }
 
     fn hold(&mut self, size: f64) {
-        self.step = size;
+        self.start = self.time;
+        self.time += size;
+        self.before.copy_from_slice(&self.state);
         self.candidate.copy_from_slice(&self.state);
-        self.error_norm = 0.0;
+        self.integrals.hold(self.time);
+        self.step = 2.0 * size;
         self.failed = false;
     }
 

@@ -228,12 +228,12 @@ impl<S: Stepper> Adaptive<S> {
                 Err(Rejection::EnergyRise)
             }
             Finish::Good { energy, dissipation, integral_rates } => {
-                let imbalance = self.imbalance(energy, integral_rates);
+                let rounding = self.rounding(problem, energy);
+                let imbalance = self.imbalance(energy, rounding, integral_rates);
                 if imbalance > 1.0 {
                     self.stepper.refuse();
                     return Err(Rejection::Error);
                 }
-                let rounding = self.rounding(problem, energy);
                 self.rest.watch(time, energy, rounding);
                 self.energy = energy;
                 self.stepper.accept(integral_rates);
@@ -249,9 +249,8 @@ impl<S: Stepper> Adaptive<S> {
     /// A step of size `size` in which the state stays: the flow is at rest, and what moves it is rounding.
     fn hold(&mut self, problem: &mut dyn Problem, size: f64) -> (f64, f64) {
         self.stepper.hold(size);
-        let time = self.stepper.time() + size;
-        self.finish(problem, time);
-        self.stepper.accept([0.0; INTEGRALS]);
+        let time = self.stepper.time();
+        self.finish(problem, time); // the candidate is that state
         problem.accepted(time, self.stepper.integrals());
         (self.energy, 0.0)
     }
@@ -265,10 +264,11 @@ impl<S: Stepper> Adaptive<S> {
     /// How far the energy lost in the step to the candidate and the integral of the dissipation are apart: far, if the
     /// step is too large for a transient that the norm of the state does not see.
     /// In units of what is allowed.
-    fn imbalance(&self, energy: f64, integral_rates: [f64; INTEGRALS]) -> f64 {
+    fn imbalance(&self, energy: f64, rounding: f64, integral_rates: [f64; INTEGRALS]) -> f64 {
         let [dissipated, ..] = self.stepper.gain(integral_rates);
-        let scale = self.energy.abs().max(energy.abs()).max(f64::MIN_POSITIVE);
-        (energy - self.energy + dissipated).abs() / (IMBALANCE * self.options.energy_tolerance * scale)
+        let scale = self.energy.abs().max(energy.abs());
+        let allowed = IMBALANCE * self.options.energy_tolerance * scale + rounding;
+        (energy - self.energy + dissipated).abs() / allowed.max(f64::MIN_POSITIVE)
     }
 
     fn finish(&mut self, problem: &mut dyn Problem, time: f64) -> Finish {

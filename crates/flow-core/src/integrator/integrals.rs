@@ -71,6 +71,11 @@ impl Integrals {
         std::array::from_fn(|i| after.values[0][i] - self.values[0][i])
     }
 
+    /// Goes to a new time without a change: rates before it say nothing of those after.
+    pub fn hold(&mut self, time: f64) {
+        *self = Self::new(time, self.values[0], [0.0; INTEGRALS]);
+    }
+
     /// Values at a time within the last step.
     #[must_use]
     pub fn at(&self, time: f64) -> [f64; INTEGRALS] {

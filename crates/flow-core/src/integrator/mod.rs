@@ -118,7 +118,7 @@ pub trait Stepper {
     fn candidate(&mut self) -> &mut [f64];
     /// What the integrals gain in the step to the candidate, with their rates at it.
     fn gain(&self, integral_rates: [f64; INTEGRALS]) -> [f64; INTEGRALS];
-    /// Makes the last accepted state the candidate of a step of size `size`.
+    /// Takes a step of size `size` in which the state and the integrals stay.
     fn hold(&mut self, size: f64);
     /// Throws the candidate away for a cause found outside and reduces the step size.
     fn refuse(&mut self);

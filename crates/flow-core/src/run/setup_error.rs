@@ -26,7 +26,7 @@ pub enum SetupError {
     TooFewNodes { nodes: usize, gap: f64, bound: f64 },
     /// The automatic choice found no number of nodes.
     #[error(
-        "`accuracy.nodes` = \"auto\": the scene needs about {needed} nodes, and at most {most} are allowed; make \
+        "`accuracy.nodes` = \"auto\": the scene needs about {needed:.0} nodes, and at most {most} are allowed; make \
          epsilon or delta larger, smooth the curve, or set a number of nodes"
     )]
     TooManyNodes { needed: f64, most: usize },

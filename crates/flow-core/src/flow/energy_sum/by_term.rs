@@ -5,6 +5,12 @@ use super::EnergySum;
 use crate::energies::{Fields, Jet};
 
 impl EnergySum {
+    /// Whether a term depends on where the nodes lie.
+    #[must_use]
+    pub fn depends_on_positions(&self) -> bool {
+        self.shape.is_some()
+    }
+
     /// Energy of each term at a state, in the order of the terms.
     pub fn energies_by_term(&mut self, at: &CurveFields) -> Vec<f64> {
         (0..self.terms.len()).map(|term| self.energy_of(term, at)).collect()

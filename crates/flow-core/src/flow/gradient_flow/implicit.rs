@@ -25,6 +25,15 @@ impl GradientFlow {
         self.write_rates(true, out);
     }
 
+    /// Takes the tension at the linearisation; none where the energy depends on positions, see (F20).
+    pub(super) fn freeze_tension(&mut self) {
+        if self.energy.depends_on_positions() {
+            return self.frozen_stretching.fill(0.0);
+        }
+        let (spectra, by_length) = (&self.gradient.spectra, self.gradient.by_length);
+        self.map.stretching(&self.frozen, spectra, by_length, &mut self.frozen_stretching);
+    }
+
     /// Adds (Z − π)δκ to the force, with κ = K/(|Γ|w), or K/g where the metric is a field.
     fn add_tension(&mut self, v: &[f64]) {
         let layout = SpectralLayout::new(self.layout);

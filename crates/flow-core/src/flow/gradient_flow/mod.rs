@@ -218,14 +218,19 @@ impl GradientFlow {
         &self.force
     }
 
-    /// Σ|∂𝓕/∂yᵢ||yᵢ| over the spectral state `y`, which must be the one evaluated last: the relative rounding of the state
-    /// changes the energy by up to this much.
+    /// Σ|∂𝓕/∂yᵢ|‖y‖ over the spectral state `y`, which must be the one evaluated last, with the norm of the field that yᵢ
+    /// belongs to: the relative rounding of the nodal fields changes the energy by up to this much.
     #[must_use]
     pub fn energy_sensitivity(&self, y: &[f64]) -> f64 {
         let layout = self.spectral_layout();
         let modes = layout.modes();
-        let pairs = self.gradient.spectra.iter().zip(layout.spectra(y)).enumerate();
-        let fields = pairs.map(|(i, (p, phi))| self.map.multiplicity(i % modes) * p.norm() * phi.norm());
+        let by_field = self.gradient.spectra.chunks_exact(modes).zip(layout.spectra(y).chunks_exact(modes));
+        let fields = by_field.map(|(p, phi)| {
+            let slopes = p.iter().enumerate().map(|(mode, p)| self.map.multiplicity(mode) * p.norm());
+            let square =
+                phi.iter().enumerate().map(|(mode, phi)| self.map.multiplicity(mode) * phi.norm_sqr());
+            slopes.sum::<f64>() * square.sum::<f64>().sqrt()
+        });
         fields.sum::<f64>() + (self.gradient.by_length * y[layout.length_index()]).abs()
     }
 
@@ -246,8 +251,7 @@ impl GradientFlow {
         self.frozen.set(state, grid, derivative);
         self.energy.linearise(&self.frozen, &mut self.gradient);
         self.frozen_fault = self.frozen_mobility.set(&self.frozen).err();
-        let IntrinsicGradient { spectra, by_length } = &self.gradient;
-        self.map.stretching(&self.frozen, spectra, *by_length, &mut self.frozen_stretching);
+        self.freeze_tension();
     }
 
     /// Spectral rate at the state of the linearisation; call right after [`GradientFlow::spectral_linearise`].

@@ -6,7 +6,8 @@ use super::{Bdf, HIGHEST_ORDER};
 const BIAS: [f64; 3] = [4.0, 4.0, 6.0];
 /// Growth below this factor is not worth a new step size.
 const LEAST_GROWTH: f64 = 1.2;
-const MOST_GROWTH: f64 = 2.5;
+/// Growth of a step at most.
+pub(super) const MOST_GROWTH: f64 = 2.5;
 const FIRST_GROWTH: f64 = 1e4;
 
 impl Bdf {

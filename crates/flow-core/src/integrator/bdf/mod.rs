@@ -235,8 +235,13 @@ impl Stepper for Bdf {
 
     fn hold(&mut self, size: f64) {
         self.step = size;
+        let time = self.candidate_time();
         self.candidate.copy_from_slice(self.history.state(0));
-        (self.order, self.steps_at_order, self.failures) = (1, 0, 0);
+        self.history.push(time, &self.candidate);
+        self.integrals.hold(time);
+        (self.order, self.last_order, self.steps_at_order, self.failures) = (1, 1, 0, 0);
+        self.accepted += 1;
+        self.step *= control::MOST_GROWTH;
     }
 
     fn candidate(&mut self) -> &mut [f64] {

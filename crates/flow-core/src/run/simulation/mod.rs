@@ -82,6 +82,7 @@ pub struct Simulation {
     /// Self-crossings at the start, if more of them end the run.
     allowed_crossings: Option<usize>,
     stopped: Option<StopReason>,
+    failure: Option<IntegrationError>,
 }
 
 /// Runs `scene` to its end and returns its record.
@@ -126,7 +127,10 @@ impl Simulation {
         observer: &mut dyn Observer,
     ) {
         match (report, fault) {
-            (Err(error), _) => self.stop(StopReason::Failed(error.to_string())),
+            (Err(error), _) => {
+                self.failure = Some(error);
+                self.stop(StopReason::Failed(error.to_string()));
+            }
             (Ok(report), fault) => {
                 self.closure_defect = self.membrane.closure_defect();
                 self.log(&report);

@@ -6,7 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use super::Simulation;
 use super::clocks::Clocks;
-use crate::integrator::{self, Adaptive, AdaptiveOptions, Bdf, Counters, Problem, Rest, Stepper, Stopwatch};
+use crate::integrator::{
+    self, Adaptive, AdaptiveOptions, Bdf, Counters, IntegrationError, Problem, Rest, Stepper, Stopwatch,
+};
 use crate::run::adaptation::Adaptation;
 use crate::run::equilibrium::Equilibrium;
 use crate::run::frames::Start;
@@ -109,6 +111,12 @@ impl Simulation {
     #[must_use]
     pub fn stop_reason(&self) -> Option<&StopReason> {
         self.stopped.as_ref()
+    }
+
+    /// Why the time integration stopped before its end, if it did.
+    #[must_use]
+    pub fn failure(&self) -> Option<IntegrationError> {
+        self.failure
     }
 
     /// Log of the steps so far.

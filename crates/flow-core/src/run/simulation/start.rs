@@ -115,6 +115,7 @@ impl Simulation {
             record,
             clocks: Clocks::started(clock, counters.integration_seconds, watch),
             stopped: None,
+            failure: None,
         })
     }
 }

@@ -39,16 +39,13 @@ pub trait Banded: Debug + Send {
     fn apply(&mut self, spectra: &mut [Complex64]);
 }
 
-/// Builds the solver for the number of fields, up to four; none beyond, and none if the normal mobility is a
-/// differential operator: it widens the band.
+/// Builds the solver for the number of fields, up to four; none beyond, none on a handful of nodes, and none if the normal
+/// mobility is a differential operator: it widens the band.
 pub fn build(flow: &GradientFlow) -> Option<Box<dyn Banded>> {
-    if flow.normal_mobility().order() > 0 {
+    if flow.normal_mobility().order() > 0 || flow.layout().nodes() < FEWEST_NODES {
         return None;
     }
     let (nodes, grading) = (flow.layout().nodes(), flow.grading().map(Arc::as_ref));
-    if nodes < FEWEST_NODES {
-        return None;
-    }
     if flow.layout().metric().is_some() {
         return match flow.layout().fields() {
             1 => Some(Box::new(MaterialPart::<1, 3>::new(nodes))),

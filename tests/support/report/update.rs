@@ -2,18 +2,18 @@
 
 use std::fs;
 
-use crate::Table;
+use super::Table;
 
 /// Ends a table.
-pub const END: &str = "<!-- end of table -->";
+pub(super) const END: &str = "<!-- end of table -->";
 
 /// Begins the table `name`.
-pub fn begin(name: &str) -> String {
+pub(super) fn begin(name: &str) -> String {
     format!("<!-- table {name} -->")
 }
 
 /// Replaces each table of the document at `path`.
-pub fn update(path: &str, tables: &[Table]) -> Result<(), String> {
+pub(super) fn update(path: &str, tables: &[Table]) -> Result<(), String> {
     let mut text = fs::read_to_string(path).map_err(|error| format!("cannot read {path}: {error}"))?;
     for (name, table) in tables {
         text = replaced(&text, name, &table()).ok_or_else(|| format!("{path} has no {}", begin(name)))?;

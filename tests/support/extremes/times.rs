@@ -1,0 +1,66 @@
+//! End times from 1e-12 to 1e12, and flows that end before.
+
+use super::case::Case;
+use super::outcome::End;
+
+/// End times.
+#[must_use]
+pub fn ends() -> Vec<Case> {
+    let mut cases = Vec::new();
+    for (name, base) in [
+        ("bending", "length_penalty"),
+        ("figure eight", "figure_eight"),
+        ("membrane", "membrane_penalty"),
+        ("incompressible", "incompressible"),
+        ("agents", "three_fold"),
+    ] {
+        for end in ["1e-12", "1e12"] {
+            let changes = [("time.end", end), ("time.stop_at_equilibrium", "false")];
+            cases.push(Case::shipped(&format!("{name}, to t = {end}"), base, &changes, End::EndTime));
+        }
+        let changes = [("time.end", "1e12"), ("time.stop_at_equilibrium", "true")];
+        cases.push(Case::shipped(&format!("{name}, to rest"), base, &changes, End::Equilibrium));
+    }
+    let growing = [("time.end", "1e12"), ("time.stop_at_equilibrium", "false")];
+    cases.push(Case::shipped("a circle that grows, to t = 1e12", "circle", &growing, End::EndTime));
+    cases
+}
+
+/// Flows that end in a point, blow up, or have no solution.
+#[must_use]
+pub fn singular() -> Vec<Case> {
+    let circle = |name: &str, energy: &str, tolerance: &str, end| {
+        let text = format!(
+            "curve = {{ shape = 'circle', radius = 1.0 }}\n{energy}\n\
+             time = {{ end = 1.0, stop_at_equilibrium = false }}\naccuracy = {{ tolerance = {tolerance}, nodes = 64 }}"
+        );
+        Case::text(name, &text, &[], end)
+    };
+    let tension = "energy.length.tension = 1.0";
+    let mut cases: Vec<Case> = ["1e-2", "1e-6", "1e-10"]
+        .iter()
+        .map(|tolerance| {
+            circle(&format!("a circle under tension, {tolerance}"), tension, tolerance, End::StepUnderflow)
+        })
+        .collect();
+    let trillium = "curve = { shape = 'trillium' }\nenergy.length.tension = 1.0\ntime.end = 10.0\n\
+                    accuracy = { tolerance = 1e-5, nodes = 512 }";
+    cases.push(Case::text("a trillium under tension", trillium, &[], End::StepUnderflow));
+    // Towards the point the steps go with R²: pressure is no part of the implicit operator (F20).
+    let crawling =
+        circle("a circle under pressure −1", "energy.area.pressure = -1.0", "1e-6", End::TooManySteps);
+    cases.push(crawling);
+    cases.push(circle(
+        "negative bending",
+        "energy.local.expression = '-0.5*kappa^2'",
+        "1e-6",
+        End::StepUnderflow,
+    ));
+    cases.push(circle(
+        "a logarithm of 1 − κ",
+        "energy.local.expression = 'ln(1 - kappa)'",
+        "1e-6",
+        End::EnergyNotFinite,
+    ));
+    cases
+}
