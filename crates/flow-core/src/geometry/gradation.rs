@@ -78,7 +78,9 @@ fn low_pass(values: &[f64], modes: f64) -> Vec<f64> {
         *value *= (-(mode as f64 / modes).powi(2)).exp();
     }
     grid.synthesise(&spectrum, &mut smooth);
-    smooth.iter_mut().for_each(|value| *value = value.exp());
+    for value in &mut smooth {
+        *value = value.exp();
+    }
     smooth
 }
 

@@ -121,7 +121,7 @@ fn start(scene: &Scene, shape: &Shape, length: f64) -> Result<Start, SetupError>
             }
             Err(error) if nodes >= MOST_FIRST_NODES => return Err(error),
             Err(SetupError::TooFewNodes { .. } | SetupError::Grading(GradingError::NotResolved { .. })) => {
-                nodes *= 2
+                nodes *= 2;
             }
             Err(error) => return Err(error),
         }
@@ -248,8 +248,7 @@ pub(super) fn family(scene: &Scene, graded: bool) -> DerivativeFamily {
     let follows = scene.flow.gauge == Gauge::Graded && scene.flow.grading.is_none();
     match scene.accuracy.derivative {
         scene::Derivative::Auto if graded && follows => DerivativeFamily::Central8,
-        scene::Derivative::Auto => DerivativeFamily::Fourier,
-        scene::Derivative::Fourier => DerivativeFamily::Fourier,
+        scene::Derivative::Auto | scene::Derivative::Fourier => DerivativeFamily::Fourier,
         scene::Derivative::Central2 => DerivativeFamily::Central2,
         scene::Derivative::Central4 => DerivativeFamily::Central4,
         scene::Derivative::Central6 => DerivativeFamily::Central6,

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Adaptation, Plan};
+use super::{Adaptation, Plan, Way};
 use crate::flow::{Regrading, local_wave_numbers};
 use crate::geometry::{Grading, Layout, follow_scales};
 use crate::run::membrane::Membrane;
@@ -43,7 +43,7 @@ impl Adaptation {
             let trial = way.apply(flow, state).ok()?;
             let part = unresolved(layout, &trial, nodes, self.families[usize::from(spread)]);
             let mesh = Mesh { nodes, samples: spread.then_some(samples) };
-            Some((part, Plan { mesh, regraded: Some(grading) }))
+            Some((part, Plan { mesh, way: Way::Regraded(grading) }))
         };
         let mut best = attempt(nodes)?;
         if !self.counts {

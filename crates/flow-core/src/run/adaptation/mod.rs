@@ -42,8 +42,16 @@ pub struct Adaptation {
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
     pub mesh: Mesh,
-    /// Their grading, if it is a new one; otherwise the parameter s of each point of the curve stays.
-    pub regraded: Option<Option<Arc<Grading>>>,
+    pub way: Way,
+}
+
+/// How a state comes to the nodes of a plan.
+#[derive(Clone, Debug)]
+pub(super) enum Way {
+    /// The parameter s of each point of the curve stays.
+    SameParameters,
+    /// To other fractions of the arc length: those of a grading, or equal ones.
+    Regraded(Option<Arc<Grading>>),
 }
 
 /// What a look at the nodes found.
@@ -100,7 +108,7 @@ impl Adaptation {
             }
         }
         if self.counts && (worthwhile(same, mesh.nodes) || (!resolved && same > mesh.nodes)) {
-            return Look::Change(Plan { mesh: with_nodes(mesh, same), regraded: None });
+            return Look::Change(Plan { mesh: with_nodes(mesh, same), way: Way::SameParameters });
         }
         if resolved { Look::Serve } else { Look::Unresolved }
     }

@@ -61,7 +61,7 @@ impl Simulation {
     /// Counters with the time spent.
     pub(super) fn counters_with_time(&self) -> Counters {
         let Counters { integration_seconds, unresolved_steps, .. } = self.record.counters;
-        Counters { integration_seconds, unresolved_steps, ..*self.integration.counters() }
+        Counters { unresolved_steps, integration_seconds, ..*self.integration.counters() }
     }
 
     pub(super) fn stop(&mut self, reason: StopReason) {

@@ -5,7 +5,7 @@ use std::time::Instant;
 use super::Simulation;
 use crate::flow::Regrading;
 use crate::integrator::{Adaptive, AdaptiveOptions, Bdf, Factorisation, Finish, Problem, Stepper};
-use crate::run::adaptation::{Look, Plan};
+use crate::run::adaptation::{Look, Plan, Way};
 use crate::run::mesh::Mesh;
 
 /// Part of the energy lost so far below which an energy counts as zero.
@@ -35,20 +35,20 @@ impl Simulation {
     /// be had there, or fewer nodes change the energy by more than the tolerance.
     fn remap(&mut self, plan: &Plan, time: f64, energy: f64) -> Option<()> {
         let turning_number = self.membrane.turning_number();
-        let built = match &plan.regraded {
-            Some(grading) => self.gauges.build_on(plan.mesh.nodes, grading.clone(), turning_number),
-            None => self.gauges.build(&plan.mesh, turning_number),
+        let built = match &plan.way {
+            Way::Regraded(grading) => self.gauges.build_on(plan.mesh.nodes, grading.clone(), turning_number),
+            Way::SameParameters => self.gauges.build(&plan.mesh, turning_number),
         };
         let (mut membrane, diagnostics) = built.ok()?;
         let mut memory = self.integration.stepper().memory();
-        match &plan.regraded {
-            None => {
+        match &plan.way {
+            Way::SameParameters => {
                 let (old, new) = (self.membrane.flow().spectral_layout(), membrane.flow().spectral_layout());
                 for (_, state) in &mut memory.points {
                     *state = old.resampled(state, &new);
                 }
             }
-            Some(grading) => {
+            Way::Regraded(grading) => {
                 let flow = self.membrane.flow();
                 let mut way = Regrading::new(flow, membrane.layout(), grading.clone(), turning_number);
                 for (_, state) in &mut memory.points {
@@ -82,5 +82,5 @@ impl Simulation {
 
 /// Whether the plan is to take more nodes: what they change was an error of those at hand.
 fn resolves_more(plan: &Plan, mesh: &Mesh) -> bool {
-    plan.regraded.is_none() && plan.mesh.nodes > mesh.nodes
+    matches!(plan.way, Way::SameParameters) && plan.mesh.nodes > mesh.nodes
 }
