@@ -31,6 +31,8 @@ pub(super) struct BendingFlow {
     gradient: Vec<Complex64>,
     by_length: f64,
     velocity: Vec<f64>,
+    /// Z − π at the state evaluated last, and at the linearisation: minus the tension.
+    stretching: [Vec<f64>; 2],
     values: Vec<f64>,
     product: Vec<f64>,
     spectrum: Vec<Complex64>,
@@ -53,6 +55,7 @@ impl BendingFlow {
             gradient: spectrum.clone(),
             by_length: 0.0,
             velocity: field.clone(),
+            stretching: [field.clone(), field.clone()],
             values: field.clone(),
             product: field,
             spectrum,
@@ -97,6 +100,8 @@ impl BendingFlow {
         self.frozen.length = self.current.length;
         self.frozen.curvature.copy_from_slice(&self.current.curvature);
         self.frozen.spectrum.copy_from_slice(&self.current.spectrum);
+        let [current, frozen] = &mut self.stretching;
+        frozen.copy_from_slice(current);
     }
 
     /// Dissipation at the state evaluated last, where the force is the velocity.
@@ -116,6 +121,22 @@ impl BendingFlow {
         self.grid.transform(&self.product, &mut self.gradient);
         self.by_length = -mean_product(&self.grid, spectrum, &self.gradient);
         self.descend(true);
+        self.add_tension(v);
+    }
+
+    /// (Z − π)δκ, (F20).
+    fn add_tension(&mut self, v: &[f64]) {
+        let turning = 2 * self.frozen.spectrum.len();
+        let inverse = 1.0 / self.frozen.length;
+        self.spectrum.copy_from_slice(cast_slice(&v[..turning]));
+        self.grid.synthesise(&self.spectrum, &mut self.values);
+        for ((f, stretching), change) in self.velocity.iter_mut().zip(&self.stretching[1]).zip(&self.values) {
+            *f += stretching * change * inverse;
+        }
+        let kappa = &self.frozen.curvature;
+        for ((f, stretching), kappa) in self.velocity.iter_mut().zip(&self.stretching[1]).zip(kappa) {
+            *f -= stretching * kappa * v[turning] * inverse;
+        }
     }
 
     /// V = f of the gradient at hand.
@@ -129,6 +150,9 @@ impl BendingFlow {
         self.grid.synthesise(&self.spectrum, &mut self.values);
         for ((f, z), kappa) in self.velocity.iter_mut().zip(&self.values).zip(&at.curvature) {
             *f = kappa * (z - self.by_length);
+        }
+        if !frozen {
+            self.stretching[0].iter_mut().zip(&self.values).for_each(|(s, z)| *s = z - self.by_length);
         }
         let scale = -1.0 / at.length.powi(2);
         apply_real_symbol(&mut self.spectrum, scale, &self.gradient, self.derivative.minus_laplacian());
@@ -197,10 +221,11 @@ impl BendingFlow {
     /// The symbol of (I − γJ)⁻¹ at the linearisation, by mode.
     pub fn invert_symbol(&self, gamma: f64, inverse: &mut [f64]) {
         let (length, stiffness) = (self.frozen.length, mean(&self.stiffness));
+        let tension = (-mean(&self.stretching[1])).max(0.0);
         for (inverse, laplacian) in inverse.iter_mut().zip(self.derivative.minus_laplacian()) {
             let square = laplacian / (length * length);
             let mobility = gamma * (square * square);
-            *inverse = 1.0 / (mobility * stiffness + 1.0);
+            *inverse = 1.0 / (mobility * stiffness + 1.0 + gamma * tension * square);
         }
     }
 }

@@ -130,9 +130,14 @@ impl Outcome {
     pub fn rise(&self) -> f64 {
         let Some(record) = &self.record else { return 0.0 };
         let scale = record.frames.iter().map(size).fold(f64::INFINITY, f64::min).max(NO_ENERGY);
-        let before = std::iter::once(&record.frames[0].energy).chain(&record.steps.energy);
-        let pairs = before.zip(&record.steps.energy);
-        pairs.fold(0.0, |rise, (a, b)| ((b - a) / a.abs().max(scale)).max(rise))
+        let (energy, nodes) = (&record.steps.energy, &record.steps.nodes);
+        let before = std::iter::once(&record.frames[0].energy).chain(energy);
+        // What a change of the nodes does to the energy is an error of space, and recorded as such.
+        let remapped = |step: usize| {
+            record.counters.remaps > 0 && (step < 1 || nodes[step] != nodes[step - 1] || step == 1)
+        };
+        let pairs = before.zip(energy).enumerate().filter(|(step, _)| !remapped(*step));
+        pairs.fold(0.0, |rise, (_, (a, b))| ((b - a) / a.abs().max(scale)).max(rise))
     }
 
     /// Largest |𝓕 − 𝓕₀ + ∫ dissipation dt| over the largest energy.
@@ -140,7 +145,10 @@ impl Outcome {
     pub fn balance(&self) -> f64 {
         let Some(record) = &self.record else { return 0.0 };
         let scale = record.frames.iter().map(size).fold(NO_ENERGY, f64::max);
-        record.frames.iter().fold(0.0, |worst, frame| (frame.energy_balance.abs() / scale).max(worst))
+        record
+            .frames
+            .iter()
+            .fold(0.0, |worst, frame| ((frame.energy_balance - frame.remap_error).abs() / scale).max(worst))
     }
 
     /// Largest relative change of a mass that is kept.

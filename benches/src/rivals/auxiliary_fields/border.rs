@@ -93,6 +93,8 @@ impl Border {
                 // λ changes φ = x/L by −φλ, and the stiffness c/L² by −2λ of itself.
                 self.columns[LENGTH][places.gradient(field, node)] = local + 3.0 * bent;
             }
+            let tension = flow.frozen_stretching()[node];
+            self.columns[LENGTH][places.velocity(node)] = tension * frozen.at_nodes(0)[node];
             if node + 1 < nodes {
                 self.columns[MEAN_OF_ADJOINT_RATE][places.adjoint(node)] = 1.0 / nodes as f64;
                 self.columns[LENGTH_RATE][places.tangential(node)] = -1.0 / nodes as f64;

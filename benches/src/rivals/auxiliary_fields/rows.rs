@@ -3,11 +3,11 @@
 //! With u = x/L for the fields, λ = x/L for the length, q = (n/L)² and S = (−1, 2, −1):
 //!
 //! ```text
-//! u_κ − γqSV − γ(n/L)δ(κW) = r_κ/L      p = Hess·(u, λ)           V + qSp_κ − κZ = 0
+//! u_κ − γqSV − γ(n/L)δ(κW) = r_κ/L      p = Hess·(u, λ)           V + qSp_κ − κZ − t(u_κ − κλ) = 0
 //! u_ρ + γ𝓖p_ρ − γ(n/L)δ(ρW) = r_ρ/L     δZ − Σφδp + ζ/n = 0       δW + (L/n)κV − η/n = 0
 //! ```
 //!
-//! λ, ζ, η and the last values of Z and W are in the border.
+//! t = Z − π at the frozen state, see (F20). λ, ζ, η and the last values of Z and W are in the border.
 
 use flow_core::flow::GradientFlow;
 
@@ -115,6 +115,7 @@ impl Row<'_> {
         self.add(places.velocity(node), 1.0);
         self.add_three(node, self.minus_laplacian(), |node| places.gradient(0, node));
         self.add(places.adjoint(node), -self.flow.frozen().at_nodes(0)[node]);
+        self.add(places.motion(0, node), -self.flow.frozen_stretching()[node]);
     }
 
     /// The last row sets Z to a value of the border, which has the row left out.

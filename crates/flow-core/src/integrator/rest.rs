@@ -49,7 +49,7 @@ mod tests {
         let mut time = 1e-9;
         while time < 100.0 {
             rest.watch(time, energy(time), 1e-13);
-            time *= 1.2;
+            time *= 1.02;
         }
         rest.reached(time)
     }

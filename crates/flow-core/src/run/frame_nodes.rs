@@ -60,7 +60,8 @@ impl Frame {
         let [x, y] = [0, 1].map(|axis| change(&self.position.iter().map(|at| at[axis]).collect::<Vec<_>>()));
         self.position = x.into_iter().zip(y).map(|(x, y)| [x, y]).collect();
         let nodal = [&mut self.curvature, &mut self.metric, &mut self.normal_velocity];
-        for field in nodal.into_iter().chain(&mut self.density).chain(&mut self.fields) {
+        let fields = nodal.into_iter().chain(&mut self.density).chain(&mut self.fields);
+        for field in fields.filter(|field| !field.is_empty()) {
             *field = change(field);
         }
         self

@@ -10,7 +10,7 @@ use super::limits;
 use super::membrane::Membrane;
 use super::mesh::Mesh;
 use super::mobilities::{density_mobilities, normal_mobility};
-use super::resolution::{self, MOST_NODES, needed_nodes};
+use super::resolution::{self, MOST_NODES, needed_nodes, unresolved};
 use super::scene::{self, Gauge, Nodes, Scene};
 use super::setup_error::SetupError;
 use crate::flow::{EnergySum, FlowMap, GradientFlow, LinearSolver};
@@ -93,6 +93,8 @@ struct Start {
 /// flow smooths them.
 const FIRST_NODES: usize = 256;
 const MOST_FIRST_NODES: usize = 4096;
+/// Part that a kink leaves unresolved; more than that is a curve that the nodes miss.
+const SMOOTHED: f64 = 1e-2;
 
 /// As many nodes as the scene says, or as its initial data need.
 fn start(scene: &Scene, shape: &Shape, length: f64) -> Result<Start, SetupError> {
@@ -110,16 +112,20 @@ fn start(scene: &Scene, shape: &Shape, length: f64) -> Result<Start, SetupError>
             Ok(start) => {
                 let aim = unresolved_bound(scene);
                 let needed = needed_nodes(layout(scene, nodes), &start.state, aim, family);
-                if needed == nodes || (needed > nodes && nodes >= MOST_FIRST_NODES) {
+                let smooths = unresolved(layout(scene, nodes), &start.state, nodes, family) < SMOOTHED;
+                if needed == nodes || (needed > nodes && nodes >= MOST_FIRST_NODES && smooths) {
                     return Ok(start);
                 }
+                if needed > MOST_NODES {
+                    return Err(SetupError::TooManyNodes { needed: needed as f64, most: MOST_NODES });
+                }
                 let fewer = needed < nodes;
-                nodes = needed.clamp(resolution::LEAST_NODES, MOST_FIRST_NODES);
+                nodes = needed.max(resolution::LEAST_NODES);
                 if fewer {
                     return start_on(scene, shape, nodes);
                 }
             }
-            Err(error) if nodes >= MOST_FIRST_NODES => return Err(error),
+            Err(error) if nodes >= MOST_NODES => return Err(error),
             Err(SetupError::TooFewNodes { .. } | SetupError::Grading(GradingError::NotResolved { .. })) => {
                 nodes *= 2;
             }

@@ -57,6 +57,13 @@ impl GradientFlow {
         }
     }
 
+    /// Z − ⟨wZ⟩ − π at the linearisation, minus the tension of the curve there, one value per node; zero where the energy depends
+    /// on positions.
+    #[must_use]
+    pub fn frozen_stretching(&self) -> &[f64] {
+        &self.frozen_stretching
+    }
+
     /// Mean tension of the curve at the linearisation; negative where it is compressed.
     #[must_use]
     pub fn mean_tension(&self) -> f64 {
