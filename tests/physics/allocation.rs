@@ -52,7 +52,7 @@ fn steps_with_an_energy_of_positions_do_not_allocate() {
 
 #[test]
 fn steps_with_a_cut_off_do_not_allocate() {
-    let changes = [("energy.adhesion.cutoff", "1.2"), ("energy.area.pressure", "0.3")];
+    let changes = [("energy.adhesion.cutoff", "2.4"), ("energy.area.pressure", "0.3")];
     assert_eq!(allocations("adhesion", &changes), 0);
 }
 

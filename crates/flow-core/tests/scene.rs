@@ -61,7 +61,7 @@ fn defaults() {
     assert_eq!(scene.title, "");
     assert!(scene.density.is_empty() && scene.time.stop_at_equilibrium && scene.time.max_steps.is_none());
     assert_eq!((scene.accuracy.tolerance, scene.accuracy.nodes), (1e-5, Nodes::Auto));
-    assert_eq!(scene.accuracy.derivative, Derivative::Fourier);
+    assert_eq!(scene.accuracy.derivative, Derivative::Auto);
     assert_eq!(scene.output.frames, Frames::Spaced { frames: 200, spacing: Spacing::Linear });
     assert_same(&parse(&scene.to_toml()), &scene);
 }

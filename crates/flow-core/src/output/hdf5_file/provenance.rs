@@ -48,7 +48,9 @@ pub(super) fn checksum(record: &Record) -> u64 {
     let names =
         record.energy_terms.iter().chain(&record.densities).chain(&record.fields).chain(&record.diagnostics);
     let names = names.map(String::as_str);
-    let bytes = texts.into_iter().chain(names).flat_map(|text| text.bytes().chain([0]));
+    let Provenance { version, commit, machine, citation } = &record.provenance;
+    let origin = [version.as_str(), commit.as_deref().unwrap_or_default(), machine, citation];
+    let bytes = texts.into_iter().chain(names).chain(origin).flat_map(|text| text.bytes().chain([0]));
     bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
