@@ -55,7 +55,6 @@ impl Setup {
         let shape = shape(&scene.curve.shape);
         let initial_length = shape.length()?;
         let Start { mesh, grading, curve, state, closure_defect } = start(scene, &shape, initial_length)?;
-        check_turning(scene, &curve)?;
         let layout = layout(scene, mesh.nodes);
         let area = area(&state, layout, &curve, grading.clone());
         let initial = Initial { length: initial_length, area };
@@ -125,6 +124,8 @@ fn start(scene: &Scene, shape: &Shape, length: f64) -> Result<Start, SetupError>
                     return start_on(scene, shape, nodes);
                 }
             }
+            // Nodes that miss a lobe count its turns wrongly.
+            Err(SetupError::TurningNumber { .. }) if nodes < MOST_FIRST_NODES => nodes *= 2,
             Err(error) if nodes >= MOST_NODES => return Err(error),
             Err(SetupError::TooFewNodes { .. } | SetupError::Grading(GradingError::NotResolved { .. })) => {
                 nodes *= 2;
@@ -141,6 +142,7 @@ fn start_on(scene: &Scene, shape: &Shape, nodes: usize) -> Result<Start, SetupEr
         None => shape.resample(nodes)?,
         Some(grading) => shape.resample_graded(grading)?,
     };
+    check_turning(scene, &curve)?;
     let (state, closure_defect) = initial_state(scene, &curve, layout(scene, nodes), grading.as_ref())?;
     Ok(Start { mesh, grading, curve, state, closure_defect })
 }
