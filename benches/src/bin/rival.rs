@@ -1,0 +1,37 @@
+//! One method on one shipped scene, for `benches/peers`; prints one JSON object.
+//!
+//! `rival METHOD SCENE NODES TOLERANCE SECONDS TIME…`: the state and the processor time at each `TIME` that is reached within
+//! `SECONDS`; each is a run of its own.
+
+use std::error::Error;
+
+use curveflow_benches::measure::{Case, Method};
+use serde_json::{Value, json};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [method, scene, nodes, tolerance, limit, times @ ..] = arguments.as_slice() else {
+        return Err("usage: rival METHOD SCENE NODES TOLERANCE SECONDS TIME…".into());
+    };
+    let method = Method::ALL.into_iter().find(|one| one.name() == method).ok_or("no such method")?;
+    let case = Case { scene: scene.clone().leak(), nodes: nodes.parse()?, derivative: "fourier" };
+    let times = times.iter().map(|time| time.parse()).collect::<Result<Vec<f64>, _>>()?;
+    println!("{}", report(method, case, tolerance.parse()?, limit.parse()?, &times));
+    Ok(())
+}
+
+/// Stops at the first time that is not reached.
+fn report(method: Method, case: Case, tolerance: f64, limit: f64, times: &[f64]) -> Value {
+    let (mut seconds, mut states, mut counts) = (Vec::new(), Vec::new(), Value::Null);
+    for time in times {
+        let run = method.run(case, "auto", tolerance, *time, limit);
+        if run.unfinished.is_some() {
+            return json!({ "seconds": seconds, "states": states, "reached": run.time });
+        }
+        counts =
+            json!({ "steps": run.counters.steps, "right-hand sides": run.counters.right_hand_sides });
+        seconds.push(run.seconds);
+        states.push(run.state);
+    }
+    json!({ "seconds": seconds, "states": states, "counts": counts })
+}
