@@ -15,7 +15,7 @@ from pathlib import Path
 
 from cases import CASES
 from solvers import ROOT, SOLVERS, integrate
-from tables import case_table, summary
+from tables import WHOLE, case_table, summary
 
 TOLERANCES = [1e-3, 1e-5, 1e-7]
 REPEATS = 3
@@ -26,21 +26,23 @@ def main():
     parser = argparse.ArgumentParser(prog="peers", description=__doc__.splitlines()[0])
     parser.add_argument("scenes", nargs="*", help="shipped scenes (default: all)")
     parser.add_argument("--only", nargs="+", default=list(SOLVERS), choices=list(SOLVERS), help="measure these alone")
+    parser.add_argument("--tables", action="store_true", help="measure nothing, write the tables of the figures kept")
     parser.add_argument("--limit", type=float, default=60.0, help="processor seconds after which a run is given up")
     parser.add_argument("--figures", type=Path, default=ROOT / "out" / "peers.json", help="where the figures are kept")
     options = parser.parse_args()
     figures = json.loads(options.figures.read_text()) if options.figures.exists() else {}
     options.figures.parent.mkdir(exist_ok=True)
     for case in CASES:
-        if not options.scenes or case.name in options.scenes:
+        if not options.tables and (not options.scenes or case.name in options.scenes):
             measured = measure(case, options.only, options.limit)
             kept = figures.get(case.name, {"runs": []})["runs"]
             measured["runs"] += [run for run in kept if run["solver"] not in options.only]
+            measured["runs"].sort(key=lambda run: list(SOLVERS).index(run["solver"]))
             figures[case.name] = measured
             options.figures.write_text(json.dumps(figures))
             print(case_table(figures[case.name]), flush=True)
     results = [figures[case.name] for case in CASES if case.name in figures]
-    tables = summary(results) + "".join(case_table(one) for one in results)
+    tables = summary(results, ["Curveflow", "CVODE", WHOLE, *list(SOLVERS)[2:]]) + "".join(case_table(one) for one in results)
     README.write_text(replaced(README.read_text(), tables))
 
 
@@ -64,8 +66,7 @@ def median(solve, limit):
         runs.append(solve())
     last = runs[-1]
     last.seconds = [statistics.median(each) for each in zip(*(run.seconds for run in runs))]
-    if last.whole_seconds is not None:
-        last.whole_seconds = statistics.median(run.whole_seconds for run in runs)
+    last.whole_seconds = [statistics.median(each) for each in zip(*(run.whole_seconds for run in runs))]
     return last
 
 

@@ -47,7 +47,7 @@ class Run:
     seconds: list[float] = field(default_factory=list)
     shapes: list[tuple[np.ndarray, float]] = field(default_factory=list)
     counts: dict[str, int] = field(default_factory=dict)
-    whole_seconds: float | None = None  # of CVODE, with its own vector operations and the calls through Python
+    whole_seconds: list[float] = field(default_factory=list)  # CVODE: with its vector operations and the calls through Python
     failure: str | None = None
 
 

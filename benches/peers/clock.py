@@ -8,11 +8,16 @@ class OutOfTime(Exception):
 
 
 class Clock:
-    """Counts the calls of functions, the time inside them, and all time since it was made."""
+    """Counts the calls of functions, the time inside them, and all time since its start."""
 
     def __init__(self, limit):
-        self.start, self.limit = time.process_time(), limit
+        self.limit = limit
         self.inside, self.calls = 0.0, {}
+        self.restart()
+
+    def restart(self):
+        """Leaves out what went before: the building of the system."""
+        self.start = time.process_time()
 
     def __call__(self, name, function, *arguments):
         start = time.thread_time()

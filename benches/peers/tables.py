@@ -2,6 +2,7 @@
 
 import math
 
+WHOLE = "CVODE, whole call"
 LEVELS = [1e-4, 1e-6]  # errors at which times are compared
 REFERENCE = "Curveflow"
 COUNTS = ["steps", "right-hand sides", "products", "solves"]
@@ -12,7 +13,7 @@ def case_table(measured):
     times, nodes = measured["times"], measured["nodes"]
     text = f"\n### {measured['scene']}, N = {nodes}, to t = {times[-1]:g}\n\n"
     text += "| | tolerance |" + "".join(f" ms to t = {time:g} | κ, L error there |" for time in times)
-    text += " whole call, ms | " + " | ".join(COUNTS) + " |\n"
+    text += " whole call to the end, ms | " + " | ".join(COUNTS) + " |\n"
     text += "| --- | --- |" + " ---: | --- |" * len(times) + " ---: |" * (1 + len(COUNTS)) + "\n"
     for run in measured["runs"]:
         text += run_line(run, len(times))
@@ -27,14 +28,13 @@ def run_line(run, times):
         else:
             cells += [run["failure"] if index == len(run["seconds"]) else "", ""]
     whole = run["whole_seconds"]
-    cells += [milliseconds(whole) if whole else ""]
+    cells += [milliseconds(whole[-1]) if whole else ""]
     cells += [str(run["counts"].get(name, "")) for name in COUNTS]
     return "| " + " | ".join(cells) + " |\n"
 
 
-def summary(results):
+def summary(results, solvers):
     """Time at equal error of each solver, and who is ahead of Curveflow."""
-    solvers = list(dict.fromkeys(run["solver"] for one in results for run in one["runs"]))
     text = "| scene | t | error | " + " | ".join(solvers) + " | ahead of Curveflow |\n"
     text += "| --- | ---: | ---: |" + " ---: |" * len(solvers) + " --- |\n"
     for measured in results:
@@ -57,7 +57,7 @@ def shown(found, base):
     if found is None:
         return "–"
     seconds, bound = found
-    ratio = f" ({seconds / base[0]:.2g})" if base else ""
+    ratio = f" ({significant(seconds / base[0], 2)})" if base else ""
     return f"{'≤ ' if bound else ''}{milliseconds(seconds)}{ratio}"
 
 
@@ -66,8 +66,9 @@ def time_at(measured, solver, index, level):
 
     The second value tells that the loosest tolerance was better already: a bound. None if `level` was not reached.
     """
-    points = [(run["seconds"][index], max(max(run["errors"][index]), 1e-16))
-              for run in measured["runs"] if run["solver"] == solver and index < len(run["seconds"])]
+    solver, seconds = ("CVODE", "whole_seconds") if solver == WHOLE else (solver, "seconds")
+    points = [(run[seconds][index], max(max(run["errors"][index]), 1e-16))
+              for run in measured["runs"] if run["solver"] == solver and index < len(run[seconds])]
     if points and points[0][1] <= level:
         return points[0][0], True
     for (seconds, error), (next_seconds, next_error) in zip(points, points[1:]):
@@ -78,4 +79,9 @@ def time_at(measured, solver, index, level):
 
 
 def milliseconds(seconds):
-    return f"{1e3 * seconds:.3g}" if seconds < 1 else f"{1e3 * seconds:.0f}"
+    return significant(1e3 * seconds, 3)
+
+
+def significant(value, digits):
+    """With so many digits, and never with an exponent."""
+    return f"{value:.{digits}g}" if value < 10**digits else f"{value:.0f}"

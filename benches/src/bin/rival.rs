@@ -1,12 +1,15 @@
 //! One method on one shipped scene, for `benches/peers`; prints one JSON object.
 //!
 //! `rival METHOD SCENE NODES TOLERANCE SECONDS TIME…`: the state and the processor time at each `TIME` that is reached within
-//! `SECONDS`; each is a run of its own.
+//! `SECONDS`; each is a run of its own, repeated while it is short.
 
 use std::error::Error;
 
 use curveflow_benches::measure::{Case, Method};
 use serde_json::{Value, json};
+
+/// Runs are repeated until they add up to so many seconds, the resolution of the clock being a few milliseconds.
+const REPEATED: f64 = 0.2;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -30,8 +33,17 @@ fn report(method: Method, case: Case, tolerance: f64, limit: f64, times: &[f64])
         }
         counts =
             json!({ "steps": run.counters.steps, "right-hand sides": run.counters.right_hand_sides });
-        seconds.push(run.seconds);
+        seconds.push(mean_seconds(run.seconds, || method.run(case, "auto", tolerance, *time, limit).seconds));
         states.push(run.state);
     }
     json!({ "seconds": seconds, "states": states, "counts": counts })
+}
+
+fn mean_seconds(first: f64, again: impl Fn() -> f64) -> f64 {
+    let (mut total, mut runs) = (first, 1.0);
+    while total < REPEATED {
+        total += again();
+        runs += 1.0;
+    }
+    total / runs
 }
