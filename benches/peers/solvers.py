@@ -34,9 +34,11 @@ class SolverFailed(Exception):
     """A solver gave up."""
 
 
-def curveflow(case, tolerance, clock, run):
+def curveflow(case, tolerance, clock, run, own_nodes=False):
     """The integration, with energy law, closure, balance and log; without the building of the system."""
-    simulation = cf.Simulation(case.scene({"accuracy.tolerance": tolerance}))
+    run.own_nodes = own_nodes
+    nodes = {"accuracy.nodes": "auto"} if own_nodes else {}
+    simulation = cf.Simulation(case.scene({"accuracy.tolerance": tolerance, **nodes}))
     seconds = 0.0
     for time in case.times:
         start = clock.whole()
@@ -146,6 +148,7 @@ def program(path, leading, case, tolerance, clock, run):
 
 SOLVERS = {
     "Curveflow": curveflow,
+    "Curveflow, auto nodes": partial(curveflow, own_nodes=True),
     "CVODE": partial(cvode, exact_products=False),
     "CVODE, exact products": partial(cvode, exact_products=True),
     "SciPy BDF": partial(scipy_solver, "BDF"),

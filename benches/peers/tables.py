@@ -49,7 +49,7 @@ def summary_line(measured, index, time, level, solvers):
     base = found[REFERENCE]
     cells = [measured["scene"], f"{time:g}", f"{level:.0e}"]
     cells += [shown(found[solver], base if solver != REFERENCE else None) for solver in solvers]
-    ahead = [s for s in solvers if s != REFERENCE and found[s] and (base is None or found[s][0] < base[0])]
+    ahead = [s for s in solvers if not s.startswith(REFERENCE) and found[s] and (base is None or found[s][0] < base[0])]
     return "| " + " | ".join(cells) + f" | {', '.join(f'**{name}**' for name in ahead)} |\n"
 
 

@@ -31,8 +31,7 @@ fn report(method: Method, case: Case, tolerance: f64, limit: f64, times: &[f64])
         if run.unfinished.is_some() {
             return json!({ "seconds": seconds, "states": states, "reached": run.time });
         }
-        counts =
-            json!({ "steps": run.counters.steps, "right-hand sides": run.counters.right_hand_sides });
+        counts = json!({ "steps": run.counters.steps, "right-hand sides": run.counters.right_hand_sides });
         seconds.push(mean_seconds(run.seconds, || method.run(case, "auto", tolerance, *time, limit).seconds));
         states.push(run.state);
     }
