@@ -1,6 +1,8 @@
 //! The tables as Markdown, and their place in `benches/README.md`.
 
 use std::fmt::Write;
+use std::path::Path;
+use std::process::ExitCode;
 
 use crate::measure::{Case, Costs, GAMMAS, Method, Outcome, REDUCTION, SIZES, SOLVERS, Unfinished, exponent};
 
@@ -90,7 +92,7 @@ pub fn costs_table(costs: &[Costs]) -> String {
     text.push_str(" power |\n| --- ");
     text.push_str(&"| ---: ".repeat(costs.len() + 1));
     text.push_str("|\n");
-    let rows: [Row; 10] = [
+    let rows: [Row; 11] = [
         ("right-hand side", |c| c.rate),
         ("linearisation", |c| c.linearisation),
         ("J·v", |c| c.product),
@@ -101,6 +103,7 @@ pub fn costs_table(costs: &[Costs]) -> String {
         ("factorisation, banded", |c| c.factorisation[1]),
         ("factorisation, auxiliary", |c| c.factorisation[2]),
         ("step of BDF, auto, tolerance 1e-5, to t = 0.1", |c| c.step),
+        ("that whole solve", |c| c.solve_to_end),
     ];
     for (name, part) in rows {
         let _ = write!(text, "| {name} |");
@@ -143,10 +146,22 @@ pub fn iterations_table(cases: &[(Case, Vec<[usize; SOLVERS.len()]>)], time: f64
     text
 }
 
-/// `document` with the text between its markers `tables` replaced by `tables`; none if it has no markers.
+/// Writes `text` between the markers `name` of `benches/README.md`, and tells what went wrong.
 #[must_use]
-pub fn replace_tables(document: &str, tables: &str) -> Option<String> {
-    replace_between(document, "tables", tables)
+pub fn publish(name: &str, text: &str) -> ExitCode {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    let written = std::fs::read_to_string(&path).and_then(|document| {
+        let document = replace_between(&document, name, text)
+            .ok_or_else(|| std::io::Error::other(format!("the markers `{name}` are missing")))?;
+        std::fs::write(&path, document)
+    });
+    match written {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{}: {error}", path.display());
+            ExitCode::FAILURE
+        }
+    }
 }
 
 /// `document` with the text between its markers `name` replaced by `text`; none if it has no such markers.
@@ -165,8 +180,8 @@ mod tests {
     #[test]
     fn tables_go_between_the_markers() {
         let document = |text: &str| format!("a\n<!-- tables: begin -->\n{text}\n<!-- tables: end -->\nb\n");
-        assert_eq!(replace_tables(&document("old"), "new"), Some(document("new")));
+        assert_eq!(replace_between(&document("old"), "tables", "new"), Some(document("new")));
         assert_eq!(replace_between(&document("old"), "other", "new"), None);
-        assert_eq!(replace_tables("no markers", "new"), None);
+        assert_eq!(replace_between("no markers", "tables", "new"), None);
     }
 }

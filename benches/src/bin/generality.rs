@@ -2,11 +2,10 @@
 //! `benches/README.md`.
 
 use std::fmt::Write;
-use std::path::Path;
 use std::process::ExitCode;
 
 use curveflow_benches::measure::{CALLS, Times, calls, clocks, generality};
-use curveflow_benches::report::replace_between;
+use curveflow_benches::report::publish;
 
 const SIZES: [usize; 5] = [64, 128, 256, 512, 1024];
 const CALLED_ON: usize = 256;
@@ -20,19 +19,7 @@ fn main() -> ExitCode {
         print!("{text}");
         tables.push_str(&text);
     }
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
-    let written = std::fs::read_to_string(&path).and_then(|document| {
-        let document = replace_between(&document, "generality", &tables)
-            .ok_or_else(|| std::io::Error::other("the markers of the tables are missing"))?;
-        std::fs::write(&path, document)
-    });
-    match written {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{}: {error}", path.display());
-            ExitCode::FAILURE
-        }
-    }
+    publish("generality", &tables)
 }
 
 fn generality_table() -> String {

@@ -1,10 +1,9 @@
 //! Measures every method with every linear solver, and writes the tables of `benches/README.md`.
 
-use std::path::Path;
 use std::process::ExitCode;
 
-use curveflow_benches::measure::{AUXILIARY, Case, Method, Outcome, SIZES, costs, iterations};
-use curveflow_benches::report::{case_head, case_line, costs_table, iterations_table, replace_tables};
+use curveflow_benches::measure::{AUXILIARY, Case, Method, Outcome, iterations};
+use curveflow_benches::report::{case_head, case_line, iterations_table, publish};
 
 /// Seconds after which a run is given up, and the tighter tolerances are not tried.
 const LIMIT: f64 = 8.0;
@@ -55,20 +54,7 @@ fn main() -> ExitCode {
     let sharp = case("three_fold_sharp", 1024);
     let systems = [sharp, central(sharp)].map(|case| (case, iterations(case, FRONTS)));
     tables.push_str(&iterations_table(&systems, FRONTS));
-    tables.push_str(&costs_table(&SIZES.map(costs)));
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
-    let written = std::fs::read_to_string(&path).and_then(|document| {
-        let document = replace_tables(&document, &tables)
-            .ok_or_else(|| std::io::Error::other("the markers of the tables are missing"))?;
-        std::fs::write(&path, document)
-    });
-    match written {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{}: {error}", path.display());
-            ExitCode::FAILURE
-        }
-    }
+    publish("tables", &tables)
 }
 
 /// All runs of one case as a table, which is printed while it grows.

@@ -1,0 +1,105 @@
+"""The shipped scenes on their own nodes, with the times at which errors are measured."""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import curveflow as cf
+import numpy as np
+
+REFERENCE_TOLERANCE = 1e-11
+
+
+@dataclass(frozen=True)
+class Case:
+    """A shipped scene, a time in its transient, and an end."""
+
+    name: str
+    times: tuple[float, float]
+
+    def scene(self, values=()):
+        """The scene to the end of the case, with further values; it does not stop at equilibrium."""
+        fixed = {"time.end": self.times[-1], "time.stop_at_equilibrium": False, "output.frames": 1}
+        return cf.Scene.shipped(self.name).with_values({**fixed, **dict(values)})
+
+    @cached_property
+    def nodes(self):
+        block = cf.System(self.scene()).blocks[0]  # half a spectrum, real and imaginary parts in turn
+        return block.stop - block.start - 2
+
+    @cached_property
+    def reference(self):
+        """Curvature and length at the times on the scene's nodes, at a tight tolerance: without the error of space."""
+        return self.tight({})
+
+    @cached_property
+    def reference_in_space(self):
+        """The same on twice as many nodes."""
+        return self.tight({"accuracy.nodes": 2 * self.nodes})
+
+    def tight(self, values):
+        simulation = cf.Simulation(self.scene({"accuracy.tolerance": REFERENCE_TOLERANCE, **values}))
+        return [shape_at(simulation, time) for time in self.times]
+
+    def errors(self, run):
+        """Relative L² error of the curvature, and relative error of the length, at each time that was reached."""
+        reference = self.reference_in_space if run.own_nodes else self.reference
+        return [
+            (relative_difference(kappa, exact), abs(length / exact_length - 1))
+            for (kappa, length), (exact, exact_length) in zip(run.shapes, reference)
+        ]
+
+
+@dataclass
+class Run:
+    """What a solver took to each time, the shape that it had there, and its calls."""
+
+    seconds: list[float] = field(default_factory=list)
+    shapes: list[tuple[np.ndarray, float]] = field(default_factory=list)
+    counts: dict[str, int] = field(default_factory=dict)
+    whole_seconds: list[float] = field(default_factory=list)  # CVODE: with its vector operations and the calls through Python
+    own_nodes: bool = False  # whether the solver chose the nodes, so that the error of space counts
+    failure: str | None = None
+
+
+CASES = [
+    Case("circle", (0.1, 1.0)),
+    Case("length_penalty", (0.001, 0.01)),
+    Case("incompressible", (0.001, 0.01)),
+    Case("membrane_penalty", (0.001, 0.01)),
+    Case("figure_eight", (0.01, 100.0)),
+    Case("adhesion", (0.02, 0.2)),
+    Case("blend", (0.1, 10.0)),
+    Case("three_fold", (0.1, 100.0)),
+    Case("three_fold_sharp", (0.1, 100.0)),
+]
+
+
+def relative_difference(kappa, exact):
+    """In L², of curvatures that may stand on different numbers of equidistant nodes: as trigonometric polynomials."""
+    nodes = max(kappa.size, exact.size)
+    kappa, exact = (np.fft.irfft(np.fft.rfft(k) / k.size, nodes) for k in (kappa, exact))
+    return np.linalg.norm(kappa - exact) / np.linalg.norm(exact)
+
+
+def shape_at(simulation, time):
+    """Curvature and length of a simulation that runs on to `time`."""
+    simulation.run(until=time)
+    return simulation.state.curvature, simulation.state.length
+
+
+def shape_of(state, blocks):
+    """Curvature at the nodes, and length, of a spectral state."""
+    coefficients = np.ascontiguousarray(state[blocks[0]]).view(complex)
+    nodes = 2 * (coefficients.size - 1)
+    return np.fft.irfft(coefficients, nodes) * nodes / state[-1], state[-1]
+
+
+def bounds(system, tolerance):
+    """Absolute tolerances in the program's norm of errors: each block against its own size."""
+    start = system.initial
+    result = np.empty_like(start)
+    for block in system.blocks:
+        entries = block.stop - block.start
+        share = np.sqrt(start.size / (entries * len(system.blocks)))
+        result[block] = tolerance * share * np.linalg.norm(start[block]) / np.sqrt(entries)
+    return result
