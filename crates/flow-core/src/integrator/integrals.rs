@@ -97,7 +97,7 @@ impl Integrals {
                 let ends = [rates[0][i], rates[1][i]];
                 let rate = match i {
                     POSITIVE if logarithmic => near(sum(f64::ln), ends.map(f64::ln), LEAST_SWING).exp(),
-                    POSITIVE => sum(|rate| rate).clamp(0.0, 2.0 * ends[0].max(ends[1])),
+                    POSITIVE => sum(|rate| rate).min(2.0 * ends[0].max(ends[1])).max(0.0),
                     _ => sum(|rate| rate),
                 };
                 *value += (time - start) * weight * rate;
