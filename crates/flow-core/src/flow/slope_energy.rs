@@ -55,6 +55,13 @@ impl SlopeEnergy {
         at.length() * self.mean_density()
     }
 
+    /// Mean over the flux points of ∂²e′/∂(∇_sφ)² at the linearisation.
+    #[must_use]
+    pub fn mean_stiffness(&self, field: usize) -> f64 {
+        let slope = self.layout.fields() + field;
+        mean(self.jet.second(slope, slope))
+    }
+
     /// ⟨we′⟩.
     fn mean_density(&self) -> f64 {
         let value = self.jet.value();

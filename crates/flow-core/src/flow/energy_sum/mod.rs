@@ -5,6 +5,7 @@
 
 mod alone;
 mod by_term;
+mod stiffness;
 
 use super::curve_fields::CurveFields;
 use super::graded_energy::{GradedEnergy, add_spectrum, mean_product};
@@ -39,6 +40,7 @@ pub struct EnergySum {
     graded: Option<GradedEnergy>,
     moving: Option<MovingMetricEnergy>,
     stiffness: Vec<f64>,
+    implicit_stiffness: Vec<f64>,
     jet: Jet,
     slopes: Option<SlopeEnergy>,
     shape: Option<ShapeEnergy>,
@@ -78,6 +80,7 @@ impl EnergySum {
             derivative: derivative.clone(),
             graded: GradedEnergy::of(layout, grid, derivative),
             moving: MovingMetricEnergy::of(layout, grid, derivative),
+            implicit_stiffness: vec![0.0; fields],
             stiffness,
             jet: Jet::new(nodes, fields),
             slopes,
@@ -100,12 +103,6 @@ impl EnergySum {
     pub fn fault(&self, at: &CurveFields) -> Option<TermFault> {
         let fields = Fields::new(self.layout.nodes(), at.pointwise());
         self.terms.iter().find_map(|term| term.fault(fields))
-    }
-
-    /// Coefficients of ½∫|∇_sφ|² dσ, by field.
-    #[must_use]
-    pub fn stiffness(&self) -> &[f64] {
-        &self.stiffness
     }
 
     /// Pointwise second derivatives at the state evaluated last with [`EnergySum::linearise`].
@@ -145,7 +142,9 @@ impl EnergySum {
 
     /// As [`EnergySum::gradient`], keeping the second derivatives for [`EnergySum::hessian_product`].
     pub fn linearise(&mut self, at: &CurveFields, gradient: &mut IntrinsicGradient) -> f64 {
-        self.evaluate(at, Order::Hessian, gradient)
+        let energy = self.evaluate(at, Order::Hessian, gradient);
+        self.freeze_stiffness();
+        energy
     }
 
     fn evaluate(&mut self, at: &CurveFields, order: Order, gradient: &mut IntrinsicGradient) -> f64 {

@@ -78,7 +78,7 @@ impl FourierSymbol {
                 for b in 0..fields {
                     block[a * fields + b] = mobility * means[a * fields + b];
                 }
-                let stiffness = flow.energy_terms().stiffness()[a] * symbol / (length * length);
+                let stiffness = flow.energy_terms().implicit_stiffness()[a] * symbol / (length * length);
                 block[a * fields + a] += 1.0 + mobility * stiffness;
             }
             let square = symbol / (length * length);
@@ -96,7 +96,7 @@ impl FourierSymbol {
 
     /// As [`FourierSymbol::set`] for the curvature alone: its blocks are numbers, inverted in whole vector registers.
     fn set_single(&mut self, flow: &GradientFlow, gamma: f64, first: usize, length: f64, tension: f64) {
-        let (mean, coefficient) = (self.means[0], flow.energy_terms().stiffness()[0]);
+        let (mean, coefficient) = (self.means[0], flow.energy_terms().implicit_stiffness()[0]);
         let (inverse, laplacian) = (&mut self.inverse[first..], &self.laplacian[first..]);
         for (mobility, symbol) in inverse.iter_mut().zip(laplacian) {
             *mobility = gamma * mobility_symbol(flow, 0, *symbol, length);

@@ -33,11 +33,11 @@ impl ResidualWeights {
         for place in 0..flow.layout().state_fields() {
             // The metric moves as stiffly as the curvature.
             let field = if Some(place) == flow.layout().metric() { 0 } else { place };
-            if flow.energy_terms().stiffness()[field] == 0.0 {
+            if flow.energy_terms().implicit_stiffness()[field] == 0.0 {
                 continue;
             }
             self.any = true;
-            let coefficient = flow.energy_terms().stiffness()[field] / (length * length);
+            let coefficient = flow.energy_terms().implicit_stiffness()[field] / (length * length);
             for (mode, stiffness) in self.stiffness.iter_mut().enumerate() {
                 let laplacian = flow.grid_and_derivative().1.minus_laplacian()[mode];
                 *stiffness =

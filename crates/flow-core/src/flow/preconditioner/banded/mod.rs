@@ -125,7 +125,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         let square = difference / (length * length);
         let band =
             if field == 0 { square * square } else { mobility_symbol(flow, field, difference, length) };
-        let stiffness = flow.energy_terms().stiffness()[field];
+        let stiffness = flow.energy_terms().implicit_stiffness()[field];
         let symbol = |mobility: f64, square: f64| 1.0 + gamma * mobility * (stiffness * square + mean);
         [symbol(band, square), symbol(mobility_symbol(flow, field, exact, length), exact / (length * length))]
     }
@@ -167,7 +167,7 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
         self.coefficients.set(flow, &mut self.grid);
         self.set_correction(flow, gamma);
         let scale = (self.grid.nodes() as f64 / flow.frozen().length()).powi(2);
-        self.set_stencils(flow.energy_terms().stiffness(), scale);
+        self.set_stencils(flow.energy_terms().implicit_stiffness(), scale);
         self.fill(flow, gamma, scale);
         self.matrix.factorise()
     }

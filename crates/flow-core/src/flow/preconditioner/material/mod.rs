@@ -69,7 +69,7 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
         let (nodes, modes, length) = (self.grid.nodes() as f64, self.grid.modes(), flow.symbol_length());
         for field in 0..F {
             let mean = mean(flow.energy_terms().jet().second(field, field)).max(0.0);
-            let stiffness = flow.energy_terms().stiffness()[field];
+            let stiffness = flow.energy_terms().implicit_stiffness()[field];
             for mode in 0..modes.min(self.fine_modes) {
                 let exact = flow.grid_and_derivative().1.minus_laplacian()[mode];
                 let difference = (2.0 * nodes * (std::f64::consts::PI * mode as f64 / nodes).sin()).powi(2);
@@ -104,7 +104,7 @@ impl<const F: usize, const B: usize> Banded for MaterialPart<F, B> {
         }
         self.coefficients.set(flow, &mut self.grid);
         self.set_roots(flow, gamma);
-        self.set_stencils(flow.energy_terms().stiffness());
+        self.set_stencils(flow.energy_terms().implicit_stiffness());
         self.fill(flow, gamma);
         self.matrix.factorise()
     }

@@ -1,0 +1,29 @@
+//! Slopes in `energy.local` cost what the same energy costs in terms of its own.
+
+use curveflow_tests::{run, scene};
+use flow_core::run::Record;
+
+fn ellipse(energies: &str) -> Record {
+    run(&scene(&format!(
+        "
+        curve = {{ shape = 'ellipse', semi_axes = [1.5, 1.0] }}
+        time = {{ end = 1.0, max_steps = 300 }}
+        accuracy = {{ tolerance = 1e-4, nodes = 128 }}
+        energy.length = {{ penalty = 5.0, target_ratio = 1.0 }}
+        {energies}
+        "
+    )))
+}
+
+#[test]
+fn an_expression_of_slopes_takes_the_steps_of_the_term() {
+    let local = ellipse("energy.local.expression = '0.5*(kappa-1)^2 + 0.05*kappa_sigma^2'");
+    let terms = ellipse("energy.local.expression = '0.5*(kappa-1)^2'\nenergy.regularization.delta = 0.1");
+    let energy = |record: &Record| record.frames.last().expect("a frame").energy;
+    println!("{} and {} steps", local.counters.steps, terms.counters.steps);
+    assert!((energy(&local) / energy(&terms) - 1.0).abs() < 1e-3, "{} {}", energy(&local), energy(&terms));
+    assert!(local.counters.steps <= terms.counters.steps + 20, "{}", local.counters.steps);
+    let iterations = local.counters.krylov_iterations as f64 / local.counters.newton_iterations as f64;
+    assert!(iterations < 5.0, "{iterations}");
+    assert_eq!(local.counters.rejections.solver, 0);
+}
