@@ -1,26 +1,8 @@
 //! Graded arc length: nodes of the fixed metric g = |Γ|w(s) instead of the uniform one. See `THEORY.md`, eq. (D8).
 
+use super::grading_error::GradingError;
 use super::grid::{Complex64, PeriodicGrid};
 use super::vectors::{mean, mean_of_product, multiply, scale};
-
-/// The grading cannot be used on a grid.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-#[allow(missing_docs)] // each message names its fields
-pub enum GradingError {
-    /// Not a metric.
-    #[error(
-        "the grading is {value:?} at s = {parameter:.6}: it must be positive and finite for all s in [0, 1), and not \
-         vanish beside its largest value; add a constant to it"
-    )]
-    NotPositive { parameter: f64, value: f64 },
-    /// Sharper than the distance of the nodes.
-    #[error(
-        "the grading is not resolved by {nodes} nodes: interpolated from them to s = {parameter:.6} it is off by \
-         {error:.1e} of its value, and at most {bound:.0e} is allowed; use more nodes, or a smoother grading"
-    )]
-    NotResolved { nodes: usize, parameter: f64, error: f64, bound: f64 },
-}
 
 /// Largest error, relative to the value, of the grading interpolated to the midpoints.
 const RESOLVED: f64 = 1e-2;

@@ -1,6 +1,7 @@
 //! The grading of a curve whose metric is known at its nodes. See `THEORY.md`, eq. (D8).
 
-use super::grading::{Grading, GradingError, half_step};
+use super::grading::{Grading, half_step};
+use super::grading_error::GradingError;
 use super::grid::{Complex64, PeriodicGrid};
 
 impl Grading {

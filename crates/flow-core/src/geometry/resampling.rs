@@ -41,7 +41,7 @@ const QUADRATURE: usize = 40;
 
 /// Scattered parameters at which trigonometric polynomials are evaluated, in O(n log n).
 ///
-/// The coefficients are divided by those of a kernel and transformed to a grid twice as fine; each value is a sum over [`WIDTH`]
+/// The coefficients are divided by those of a kernel and transformed to a grid twice as fine; each value is a sum over fourteen
 /// of its nodes (Barnett, Magland & af Klinteberg, SIAM J. Sci. Comput. 41 (2019) C479).
 #[derive(Clone, Debug)]
 pub struct ScatteredPoints {

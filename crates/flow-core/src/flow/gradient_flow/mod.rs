@@ -2,9 +2,8 @@
 
 mod implicit;
 mod part_costs;
+mod parts;
 mod turning;
-
-use std::sync::Arc;
 
 use implicit::drive;
 
@@ -13,8 +12,7 @@ use super::density_mobility::DensityMobility;
 use super::energy_sum::{EnergySum, IntrinsicGradient};
 use super::flow_map::FlowMap;
 use super::normal_mobility::{MobilityError, NormalMobility};
-use crate::geometry::{Complex64, Grading, Layout, PeriodicGrid, SpectralLayout};
-use crate::operators::Derivative;
+use crate::geometry::{Complex64, Layout, SpectralLayout};
 
 pub use part_costs::{EvaluationCost, PartCosts};
 
@@ -108,65 +106,6 @@ impl GradientFlow {
             velocity: vec![0.0; layout.nodes()],
             spectrum: vec![Complex64::default(); modes],
         }
-    }
-
-    /// Shape of the state vector.
-    #[must_use]
-    pub fn layout(&self) -> Layout {
-        self.layout
-    }
-
-    /// The terms of the energy, to read.
-    #[must_use]
-    pub fn energy_terms(&self) -> &EnergySum {
-        &self.energy
-    }
-
-    /// Mobilities of the densities.
-    #[must_use]
-    pub fn density_mobilities(&self) -> &[Box<dyn DensityMobility>] {
-        &self.density_mobilities
-    }
-
-    /// The normal mobility at the linearisation.
-    #[must_use]
-    pub fn normal_mobility(&self) -> &dyn NormalMobility {
-        &*self.frozen_mobility
-    }
-
-    /// Why products of the implicit operator are NaN: the normal mobility is not defined at the linearisation.
-    #[must_use]
-    pub fn linearisation_fault(&self) -> Option<MobilityError> {
-        self.frozen_fault
-    }
-
-    /// Fields at the state evaluated last.
-    #[must_use]
-    pub fn current(&self) -> &CurveFields {
-        &self.current
-    }
-
-    /// Fields at the linearisation.
-    #[must_use]
-    pub fn frozen(&self) -> &CurveFields {
-        &self.frozen
-    }
-
-    /// Grid and derivative.
-    pub fn grid_and_derivative(&mut self) -> (&mut PeriodicGrid, &Derivative) {
-        self.map.grid_and_derivative()
-    }
-
-    /// The grading of the nodes; none if they are uniform.
-    #[must_use]
-    pub fn grading(&self) -> Option<&Arc<Grading>> {
-        self.map.grading()
-    }
-
-    /// How often a mode stands in the full spectrum.
-    #[must_use]
-    pub fn multiplicity(&self, mode: usize) -> f64 {
-        self.map.multiplicity(mode)
     }
 
     /// Rate of `state` into `rate`, both spectral.

@@ -13,7 +13,7 @@ const LEAST_LEFT_OUT: f64 = 1e-13;
 /// few more nodes take that away.
 const LEFT_OUT_OF_CROWDS: f64 = 0.1;
 
-/// Part of the states of `scene` that may be left unresolved, as [`crate::run::resolution::unresolved`] measures it.
+/// Part of the states of `scene` that may be left unresolved, as `resolution::unresolved` measures it.
 pub fn unresolved_bound(scene: &Scene) -> f64 {
     let follows = scene.flow.gauge == Gauge::Graded && scene.flow.grading.is_none();
     let part = (LEFT_OUT * scene.accuracy.tolerance).min(MOST_LEFT_OUT);
