@@ -135,7 +135,6 @@ def test_mistakes_are_reported_with_their_keys_all_at_once():
         ({"energy": [cf.Length(tension=1, penalty=1)]}, r"energy\.length\.penalty.*exclude each other"),
         ({"curve": cf.Points()}, r"`curve\.points` is missing"),
         ({"output": cf.Output(frames=3, times=[0.5])}, r"output\.frames.*exclude each other"),
-        ({"flow": cf.Flow(gauge="graded")}, r"`flow\.grading` is missing"),
         ({"accuracy": cf.Accuracy(nodes=7)}, r"`accuracy\.nodes` = 7 is out of range"),
     ],
 )

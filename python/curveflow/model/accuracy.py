@@ -18,10 +18,11 @@ class Accuracy(Table):
     nodes: int | Literal["auto"] = default("accuracy", "nodes")
     """Number of nodes on the curve, 8 to 65536, or ``auto``: as many as the tolerance needs,
     while the run goes on (THEORY.md, D12)."""
-    derivative: Literal["fourier", "central-2", "central-4", "central-6", "central-8"] = default(
+    derivative: Literal["auto", "fourier", "central-2", "central-4", "central-6", "central-8"] = default(
         "accuracy", "derivative"
     )
-    """Discrete derivative along the curve: trigonometric, or central differences of order 2 to 8 (THEORY.md, D2)."""
+    """Discrete derivative along the curve: trigonometric, or central differences of order 2 to 8 (THEORY.md, D2). ``auto``:
+    trigonometric, but ``central-8`` on graded nodes that follow the solution."""
     linear_solver: Literal["auto", "fourier", "banded", "dense"] = default("accuracy", "linear_solver")
     """Solver of the linear systems of the implicit steps: ``fourier`` (O1) or ``banded`` (O2) preconditioner,
     ``dense`` factorisation (O3), or ``auto``."""
