@@ -40,7 +40,7 @@ impl Gauges {
             let mut scene = scene.clone();
             scene.flow.gauge = switch.gauge;
             scene.flow.grading.clone_from(&switch.grading);
-            Mesh::of(&scene, mesh.nodes).grading(&scene)?;
+            Mesh::of(mesh.nodes).grading(&scene)?;
             pending.push_back((switch.time, scene));
         }
         Ok(Self { initial, scene: scene.clone(), pending })
@@ -71,7 +71,7 @@ impl Gauges {
 
     fn regraded(&self, before: &mut Membrane, state: &[f64]) -> Result<Switched, SetupError> {
         let turning_number = before.turning_number();
-        let mesh = Mesh::of(&self.scene, before.layout().nodes());
+        let mesh = Mesh::of(before.layout().nodes());
         let (mut membrane, diagnostics) = self.build(&mesh, turning_number)?;
         let regraded = regrade(before.flow(), membrane.flow(), state, turning_number)?;
         membrane.follow(before);

@@ -20,7 +20,7 @@ pub struct Mesh {
 impl Mesh {
     /// `nodes` nodes, graded as the scene says; uniform if it leaves that to the program.
     #[must_use]
-    pub fn of(_scene: &Scene, nodes: usize) -> Self {
+    pub fn of(nodes: usize) -> Self {
         Self { nodes, samples: None }
     }
 

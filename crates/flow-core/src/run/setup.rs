@@ -136,7 +136,7 @@ fn start(scene: &Scene, shape: &Shape, length: f64) -> Result<Start, SetupError>
 }
 
 fn start_on(scene: &Scene, shape: &Shape, nodes: usize) -> Result<Start, SetupError> {
-    let mesh = Mesh::of(scene, nodes);
+    let mesh = Mesh::of(nodes);
     let grading = mesh.grading(scene)?;
     let curve = match &grading {
         None => shape.resample(nodes)?,
@@ -253,9 +253,8 @@ pub fn shape(shape: &scene::Shape) -> Shape {
 
 /// The family of derivatives of `scene` on nodes that are `graded` or not.
 pub(super) fn family(scene: &Scene, graded: bool) -> DerivativeFamily {
-    let follows = scene.flow.gauge == Gauge::Graded && scene.flow.grading.is_none();
     match scene.accuracy.derivative {
-        scene::Derivative::Auto if graded && follows => DerivativeFamily::Central8,
+        scene::Derivative::Auto if graded && scene.flow.follows_solution() => DerivativeFamily::Central8,
         scene::Derivative::Auto | scene::Derivative::Fourier => DerivativeFamily::Fourier,
         scene::Derivative::Central2 => DerivativeFamily::Central2,
         scene::Derivative::Central4 => DerivativeFamily::Central4,

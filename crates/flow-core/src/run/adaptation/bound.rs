@@ -1,6 +1,6 @@
 //! How much of a state may be left unresolved.
 
-use crate::run::scene::{Gauge, Scene};
+use crate::run::scene::Scene;
 
 /// Part of a state, in units of the tolerance, that may be left unresolved for errors of about the tolerance.
 const LEFT_OUT: f64 = 2.0;
@@ -15,7 +15,6 @@ const LEFT_OUT_OF_CROWDS: f64 = 0.1;
 
 /// Part of the states of `scene` that may be left unresolved, as `resolution::unresolved` measures it.
 pub fn unresolved_bound(scene: &Scene) -> f64 {
-    let follows = scene.flow.gauge == Gauge::Graded && scene.flow.grading.is_none();
     let part = (LEFT_OUT * scene.accuracy.tolerance).min(MOST_LEFT_OUT);
-    (part * if follows { LEFT_OUT_OF_CROWDS } else { 1.0 }).max(LEAST_LEFT_OUT)
+    (part * if scene.flow.follows_solution() { LEFT_OUT_OF_CROWDS } else { 1.0 }).max(LEAST_LEFT_OUT)
 }

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use super::membrane::Membrane;
 use super::mesh::Mesh;
 use super::resolution::{LEAST_NODES, MOST_NODES, needed_nodes, unresolved};
-use super::scene::{Gauge, Nodes, Scene};
+use super::scene::{Nodes, Scene};
 use super::setup::family;
 use crate::geometry::{Grading, resample};
 use crate::operators::DerivativeFamily;
@@ -70,19 +70,13 @@ impl Adaptation {
     #[must_use]
     pub fn of(scene: &Scene) -> Option<Self> {
         let counts = scene.accuracy.nodes == Nodes::Auto;
-        let grades = scene.flow.gauge == Gauge::Graded && scene.flow.grading.is_none();
+        let grades = scene.flow.follows_solution();
         (counts || grades).then(|| Self {
             bound: unresolved_bound(scene),
             counts,
             grades,
             families: [false, true].map(|graded| family(scene, graded)),
         })
-    }
-
-    /// Whether the grading is chosen.
-    #[must_use]
-    pub fn grades(&self) -> bool {
-        self.grades
     }
 
     /// Whether other nodes are better for the spectral `state` of `membrane`, which has been on those of `mesh` for `age` steps.

@@ -73,6 +73,12 @@ impl Default for Flow {
 }
 
 impl Flow {
+    /// Whether the nodes follow the solution: graded, and no grading is given.
+    #[must_use]
+    pub fn follows_solution(&self) -> bool {
+        self.gauge == Gauge::Graded && self.grading.is_none()
+    }
+
     /// `end` is the end time, if that is known.
     pub(super) fn read(mut section: Section<'_>, end: Option<f64>) -> Self {
         let default = Self::default();

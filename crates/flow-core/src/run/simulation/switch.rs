@@ -33,7 +33,7 @@ impl Simulation {
         let mut counters = *self.integration.counters();
         counters.remaps += 1;
         self.switches += 1;
-        self.mesh = Mesh::of(self.gauges.scene(), self.membrane.layout().nodes());
+        self.mesh = Mesh::of(self.membrane.layout().nodes());
         self.adaptation = Adaptation::of(self.gauges.scene());
         self.remapped_at = counters.steps;
         let integrals = Integrals::new(report.time, self.integration.integrals(), integral_rates);
