@@ -33,7 +33,7 @@ mod program;
 mod spelling;
 mod symbolic;
 mod tape;
-mod vector_math;
+pub(crate) mod vector_math;
 
 pub use error::ExpressionError;
 pub use program::Program;

@@ -1,6 +1,6 @@
 //! The exponential without branches or tables, so that loops over it vectorise.
 
-#![allow(clippy::inline_always)] // these bodies must be compiled inside each version of the tape's loop
+#![allow(clippy::inline_always)] // these bodies must be compiled inside each version of the loops
 
 use std::f64::consts::LOG2_E;
 
@@ -28,7 +28,7 @@ const TAIL: [f64; 10] = [
 
 /// `eˣ` within one unit in the last place; 0, ∞ and NaN where they belong, subnormals included.
 #[inline(always)]
-pub(super) fn exp(x: f64) -> f64 {
+pub(crate) fn exp(x: f64) -> f64 {
     // Comparisons, not `clamp`: a NaN must pass through, and each line is one vector select.
     let x = if x > LARGEST { LARGEST } else { x };
     let x = if x < SMALLEST { SMALLEST } else { x };

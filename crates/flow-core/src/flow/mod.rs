@@ -30,6 +30,6 @@ pub use normal_mobility::{
     AreaPreserving, Identity, Incompressible, IncompressibleAreaPreserving, Kept, MobilityError,
     NormalMobility, SurfaceDiffusion,
 };
-pub use preconditioner::{LinearSolver, Preconditioner};
+pub use preconditioner::{LinearSolver, Preconditioner, mobility_symbol};
 pub use regrade::{Regraded, Regrading, regrade};
 pub use scales::local_wave_numbers;

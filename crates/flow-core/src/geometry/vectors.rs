@@ -97,6 +97,14 @@ pub fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
     }
 }
 
+/// y += factor × a × b, entry by entry.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn add_scaled_product(y: &mut [f64], factor: f64, a: &[f64], b: &[f64]) {
+    for ((y, a), b) in y.iter_mut().zip(a).zip(b) {
+        *y += factor * (a * b);
+    }
+}
+
 /// out = factor × x.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 pub fn scale_into(out: &mut [f64], factor: f64, x: &[f64]) {

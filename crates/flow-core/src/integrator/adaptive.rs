@@ -236,7 +236,7 @@ impl<S: Stepper> Adaptive<S> {
                 }
                 self.rest.watch(time, energy, rounding);
                 self.energy = energy;
-                self.stepper.accept(integral_rates);
+                self.stepper.accept(problem, integral_rates);
                 problem.accepted(time, self.stepper.integrals());
                 if imbalance > WORTH_NO_GROWTH {
                     self.stepper.limit_step_size(size);

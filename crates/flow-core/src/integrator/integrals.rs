@@ -1,5 +1,6 @@
 //! Integrals over time of quantities known at the accepted steps, by polynomials through their last values
-//! (an implicit Adams formula with variable steps); that of a positive rate by a polynomial in its logarithm. See `THEORY.md`, eq. (I6).
+//! (an implicit Adams formula with variable steps); that of a positive rate by a polynomial in its logarithm, and in the logarithm
+//! of the time since the start while the steps grow with it. See `THEORY.md`, eq. (I6).
 
 use serde::{Deserialize, Serialize};
 
@@ -14,6 +15,9 @@ const POSITIVE: usize = 0;
 const LEAST_SWING: f64 = 0.1;
 /// … and the most, a factor of a thousand.
 const MOST_SWING: f64 = 6.9;
+/// Growth of the steps between the points above which the rates are taken as functions of the logarithm of time: from rough
+/// data a flow settles by powers of the time since then.
+const GROWING: f64 = 1.5;
 /// Nodes and weights of the three-point Gauss rule on [0, 1], exact for the polynomials used.
 const GAUSS: [(f64, f64); 3] =
     [(0.112_701_665_379_258_31, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
@@ -24,6 +28,9 @@ pub struct Integrals {
     times: [f64; POINTS],
     rates: [[f64; INTEGRALS]; POINTS],
     filled: usize,
+    /// Time at the start, and the first step from there.
+    start: f64,
+    first_step: f64,
     /// Values at the last and at the time before.
     values: [[f64; INTEGRALS]; 2],
 }
@@ -32,14 +39,14 @@ impl Integrals {
     /// Integrals with the values `values` at `time`, where the rates are `rates`.
     #[must_use]
     pub fn new(time: f64, values: [f64; INTEGRALS], rates: [f64; INTEGRALS]) -> Self {
-        Self { times: [time; POINTS], rates: [rates; POINTS], filled: 1, values: [values; 2] }
+        Self { times: [time; POINTS], rates: [rates; POINTS], filled: 1, start: time, first_step: 0.0, values: [values; 2] }
     }
 
     /// Whether the numbers belong together.
     #[must_use]
     pub(super) fn is_sound(&self) -> bool {
         let rates = self.rates.iter().chain(&self.values).flatten();
-        (1..=POINTS).contains(&self.filled) && rates.chain(&self.times).all(|value| value.is_finite())
+        (1..=POINTS).contains(&self.filled) && rates.chain(&self.times).chain([&self.start, &self.first_step]).all(|value| value.is_finite())
     }
 
     /// The last time.
@@ -60,6 +67,9 @@ impl Integrals {
         self.rates.rotate_right(1);
         self.times[0] = time;
         self.rates[0] = rates;
+        if self.filled == 1 {
+            self.first_step = time - self.start;
+        }
         self.filled = (self.filled + 1).min(POINTS);
         self.values[1] = self.values[0];
         self.values[0] = self.at(time);
@@ -87,10 +97,15 @@ impl Integrals {
         let start = self.times[1];
         let mut values = self.values[1];
         let rates = &self.rates[..self.filled];
+        let times = &self.times[..self.filled];
+        let grow = times[0] - start > GROWING * (times[self.filled - 2] - times[self.filled - 1]);
+        let scale = |time: f64| if grow { (time - self.start + self.first_step).ln() } else { time };
+        let mut scaled = self.times;
+        scaled.iter_mut().for_each(|time| *time = scale(*time));
         // A rate that falls by decades within a few steps is a polynomial in its logarithm only.
         let logarithmic = rates.iter().all(|r| r[POSITIVE] > 0.0);
         for (node, weight) in GAUSS {
-            let weights = lagrange(start + node * (time - start), &self.times[..self.filled]).value;
+            let weights = lagrange(scale(start + node * (time - start)), &scaled[..self.filled]).value;
             for (i, value) in values.iter_mut().enumerate() {
                 let sum =
                     |of: fn(f64) -> f64| rates.iter().zip(weights).map(|(r, w)| w * of(r[i])).sum::<f64>();
@@ -131,6 +146,15 @@ mod tests {
         let times: Vec<f64> = (0..40).map(|i| 0.25 * f64::from(i)).collect();
         let exact = 1.0 - (-9.75_f64).exp();
         assert!((integral(&times, |time| (-time).exp()) - exact).abs() < 1e-9); // the Gauss rule
+    }
+
+    #[test]
+    fn a_rate_that_falls_by_a_power_of_the_time_is_integrated_while_the_steps_grow_with_it() {
+        let times: Vec<f64> = std::iter::once(0.0).chain((0..30).map(|i| 1e-8 * 1.8_f64.powi(i))).collect();
+        let rate = |time: f64| (time + 3e-8).powf(-0.6);
+        let end = times.last().unwrap() + 3e-8;
+        let exact = (end.powf(0.4) - 3e-8_f64.powf(0.4)) / 0.4;
+        assert!((integral(&times, rate) / exact - 1.0).abs() < 1e-5, "{}", integral(&times, rate) / exact - 1.0);
     }
 
     #[test]

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::bdf;
+use super::exponential::ExponentialMemory;
 use super::history::MOST_POINTS;
 use super::integrals::Integrals;
 use super::newton::Factorisation;
@@ -15,6 +17,8 @@ pub struct Memory {
     pub integrals: Integrals,
     /// Age of the factorisation.
     pub factorisation: Factorisation,
+    /// What the exponential method knows besides, if it is the one that goes on.
+    pub exponential: Option<ExponentialMemory>,
     pub(super) order: usize,
     pub(super) last_order: usize,
     pub(super) step: f64,
@@ -29,18 +33,37 @@ impl Memory {
     pub fn fits(&self, size: usize) -> bool {
         let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
         let falling = self.points.windows(2).all(|pair| pair[0].0 > pair[1].0);
-        let orders = 1..MOST_POINTS - 1;
+        let points = self.points.len();
+        let orders = 1..MOST_POINTS;
+        let enough = match &self.exponential {
+            Some(own) => own.fits(points, size) && points >= self.order,
+            None => points > self.order.max(self.last_order) && self.order < MOST_POINTS - 1,
+        };
         falling
             && self.integrals.is_sound()
-            && (2..=MOST_POINTS).contains(&self.points.len())
+            && (1..=MOST_POINTS).contains(&points)
             && self
                 .points
                 .iter()
                 .all(|(time, state)| time.is_finite() && state.len() == size && finite(state))
             && orders.contains(&self.order)
             && orders.contains(&self.last_order)
-            && self.points.len() > self.order.max(self.last_order)
+            && enough
             && self.step > 0.0
             && self.step.is_finite()
+    }
+
+    /// For the implicit method to go on from here; from the start it needs a state before.
+    #[must_use]
+    pub fn implicit(mut self) -> Self {
+        let Some(own) = self.exponential.take() else { return self };
+        if let ([(time, state)], [rate, ..]) = (&self.points[..], &own.rates[..]) {
+            let before = state.iter().zip(rate).map(|(y, rate)| y - self.step * rate).collect();
+            self.points.push((time - self.step, before));
+        }
+        let most = bdf::HIGHEST_ORDER.min(self.points.len() - 1);
+        (self.order, self.last_order) = (self.order.min(most), self.last_order.min(most));
+        self.steps_at_order = 0;
+        self
     }
 }

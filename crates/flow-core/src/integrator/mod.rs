@@ -3,10 +3,13 @@
 mod adaptive;
 mod bdf;
 mod error_norm;
+mod exponential;
 mod gmres;
 mod history;
 mod integrals;
+mod linear_part;
 mod memory;
+mod multistep;
 mod newton;
 mod rest;
 mod statistics;
@@ -15,10 +18,13 @@ mod stopwatch;
 pub use adaptive::{Adaptive, AdaptiveOptions, IntegrationError, StepReport};
 pub use bdf::Bdf;
 pub use error_norm::ErrorNorm;
+pub use exponential::{Exponential, ExponentialMemory};
 pub use gmres::{Gmres, Target};
 pub use history::History;
 pub use integrals::Integrals;
+pub use linear_part::LinearPart;
 pub use memory::Memory;
+pub use multistep::Multistep;
 pub use newton::{Factorisation, NewtonKrylov, NewtonOutcome, Stage};
 pub use rest::Rest;
 pub use statistics::{Counters, Rejections};
@@ -54,6 +60,14 @@ pub trait Problem {
     /// Energy that the rounding of the state finished last may add or take away, where the energy itself is near zero.
     fn energy_rounding(&self, _y: &[f64]) -> f64 {
         0.0
+    }
+    /// f(y) at the candidate `y` finished last, into `rate`.
+    fn finished_rate(&mut self, y: &[f64], rate: &mut [f64]) {
+        self.rate(y, rate);
+    }
+    /// A part of J at `y` whose exponential is at hand, if there is one; takes the linearisation to `y`.
+    fn linear_part(&mut self, _y: &[f64]) -> Option<LinearPart> {
+        None
     }
     /// Tells that the state finished last was accepted, with the integrals at it.
     fn accepted(&mut self, time: f64, integrals: [f64; INTEGRALS]);
@@ -122,8 +136,8 @@ pub trait Stepper {
     fn hold(&mut self, size: f64);
     /// Throws the candidate away for a cause found outside and reduces the step size.
     fn refuse(&mut self);
-    /// Accepts the candidate with the integral rates at it.
-    fn accept(&mut self, integral_rates: [f64; INTEGRALS]);
+    /// Accepts the candidate, which `problem` has finished last, with the integral rates at it.
+    fn accept(&mut self, problem: &mut dyn Problem, integral_rates: [f64; INTEGRALS]);
     /// State at a time within the last accepted step.
     fn interpolate(&self, time: f64, y: &mut [f64]) -> [f64; INTEGRALS];
 }

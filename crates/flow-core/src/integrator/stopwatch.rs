@@ -6,7 +6,7 @@
 use std::ops::Range;
 use std::time::Instant;
 
-use super::{Finish, INTEGRALS, Problem};
+use super::{Finish, INTEGRALS, LinearPart, Problem};
 
 /// What a step spends time on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -216,6 +216,14 @@ impl<P: Problem> Problem for Clocked<'_, P> {
 
     fn finish(&mut self, time: f64, y: &mut [f64]) -> Finish {
         self.during(Activity::Check, Activity::StepControl, |problem| problem.finish(time, y))
+    }
+
+    fn finished_rate(&mut self, y: &[f64], rate: &mut [f64]) {
+        self.problem.finished_rate(y, rate);
+    }
+
+    fn linear_part(&mut self, y: &[f64]) -> Option<LinearPart> {
+        self.during(Activity::Linearisation, Activity::StepControl, |problem| problem.linear_part(y))
     }
 
     fn accepted(&mut self, time: f64, integrals: [f64; INTEGRALS]) {

@@ -122,6 +122,11 @@ impl GradientFlow {
         Rate { energy, dissipation: self.dissipation() }
     }
 
+    /// Spectral rate at the state evaluated last, by [`GradientFlow::spectral_dissipation`].
+    pub fn rate_at_hand(&mut self, rate: &mut [f64]) {
+        self.write_rates(false, rate);
+    }
+
     /// Takes the fields of the spectral `state`, without evaluating anything.
     pub fn set_current(&mut self, state: &[f64]) {
         let (grid, derivative) = self.map.grid_and_derivative();

@@ -19,6 +19,7 @@ use dense::Dense;
 use fourier::FourierSymbol;
 use length_coupling::LengthCoupling;
 use metric_coupling::MetricCoupling;
+pub use fourier::mobility_symbol;
 pub use residual_weights::ResidualWeights;
 
 /// How the linear systems of the implicit steps are preconditioned.

@@ -10,10 +10,12 @@ use super::error_norm::ErrorNorm;
 use super::history::{History, MOST_POINTS, Weights, lagrange};
 use super::integrals::Integrals;
 use super::memory::Memory;
+use super::multistep::first_step;
 use super::newton::{Factorisation, NewtonKrylov, NewtonOutcome, Stage};
 use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
 
-const HIGHEST_ORDER: usize = 5;
+/// Highest order of the formulas that are stable enough.
+pub(super) const HIGHEST_ORDER: usize = 5;
 /// Local errors may be this multiple of a tolerance of 1e-5: a dissipative flow forgets them. A tighter tolerance takes
 /// more steps, as its root of the order of the error, whose errors add up: the multiple shrinks with them. The measured
 /// errors of the shipped scenes are in `benches/README.md`.
@@ -74,8 +76,7 @@ impl Bdf {
         let mut rate = vec![0.0; size];
         problem.rate(y, &mut rate);
         counters.right_hand_sides += 1;
-        // The first step moves the state by a small part of the tolerance's root: order 1 has error O(h²).
-        let step = 0.1 * tolerance.sqrt() / norm.norm(&rate).max(1e-280);
+        let step = first_step(tolerance, norm.norm(&rate));
         let mut history = History::new(size);
         let before: Vec<f64> = y.iter().zip(&rate).map(|(y, rate)| y - step * rate).collect();
         let time = integrals.time();
@@ -85,6 +86,7 @@ impl Bdf {
             points: history.points(),
             integrals,
             factorisation: Factorisation::default(),
+            exponential: None,
             order: 1,
             last_order: 1,
             step,
@@ -102,6 +104,7 @@ impl Bdf {
             points: self.history.points(),
             integrals: self.integrals.clone(),
             factorisation: self.newton.factorisation(),
+            exponential: None,
             order: self.order,
             last_order: self.last_order,
             step: self.step,
@@ -257,7 +260,7 @@ impl Stepper for Bdf {
         }
     }
 
-    fn accept(&mut self, integral_rates: [f64; INTEGRALS]) {
+    fn accept(&mut self, _: &mut dyn Problem, integral_rates: [f64; INTEGRALS]) {
         let time = self.candidate_time();
         self.last_order = self.order;
         self.steps_at_order += 1;

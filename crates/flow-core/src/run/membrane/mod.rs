@@ -1,5 +1,6 @@
 //! The gradient flow of a closed curve as a problem for the integrator.
 
+mod linear_part;
 mod memory;
 
 use std::f64::consts::TAU;
@@ -9,7 +10,7 @@ use super::invariants::Invariants;
 use crate::flow::{GradientFlow, LinearSolver, Preconditioner, Rate};
 use crate::geometry::vectors::{mean_of_product, multiply};
 use crate::geometry::{Closure, Crossings, Embedding, Layout};
-use crate::integrator::{Finish, INTEGRALS, Problem};
+use crate::integrator::{Finish, INTEGRALS, LinearPart, Problem};
 pub use memory::MembraneMemory;
 
 /// Index of ∫ dissipation dt among the integrals.
@@ -41,6 +42,8 @@ pub struct Membrane {
     /// Time, angle and rate of the angle at the last accepted state; rate at the candidate.
     placed: [f64; 3],
     candidate_angle_rate: f64,
+    /// Whether the choice of the method is free, and the flow has a linear part in Fourier space.
+    may_be_exponential: bool,
     /// The spectral state of the linearisation, and that of the factorisation with its γ.
     linearised: Vec<f64>,
     factorised: (Vec<f64>, f64),
@@ -51,6 +54,7 @@ impl Membrane {
     #[must_use]
     pub fn new(mut flow: GradientFlow, solver: LinearSolver, turning_number: i32, angle: f64) -> Self {
         let (nodes, size) = (flow.layout().nodes(), flow.spectral_layout().len());
+        let may_be_exponential = solver == LinearSolver::Auto && linear_part::exists(&flow);
         Self {
             preconditioner: Preconditioner::new(solver, &mut flow),
             banded: (solver == LinearSolver::Auto && Preconditioner::banded_exists(&flow))
@@ -66,6 +70,7 @@ impl Membrane {
             start_angle: angle,
             placed: [0.0, angle, 0.0],
             candidate_angle_rate: 0.0,
+            may_be_exponential,
             linearised: vec![0.0; size],
             factorised: (vec![0.0; size], 0.0),
         }
@@ -269,6 +274,19 @@ impl Problem for Membrane {
         let integral_rates = self.integral_rates(rate);
         self.candidate_angle_rate = integral_rates[ANGLE];
         Finish::Good { energy: rate.energy, dissipation: rate.dissipation, integral_rates }
+    }
+
+    fn finished_rate(&mut self, _: &[f64], rate: &mut [f64]) {
+        self.flow.rate_at_hand(rate);
+    }
+
+    fn linear_part(&mut self, y: &[f64]) -> Option<LinearPart> {
+        if !self.may_be_exponential {
+            return None;
+        }
+        self.linearised.copy_from_slice(y);
+        self.flow.spectral_linearise(y);
+        linear_part::of(&mut self.flow)
     }
 
     fn energy_rounding(&self, y: &[f64]) -> f64 {

@@ -15,7 +15,7 @@ pub use resume::{Memory, ResumeError};
 
 use crate::energies::TermFault;
 use crate::geometry::Layout;
-use crate::integrator::{Adaptive, Bdf, Clocked, Counters, IntegrationError, StepReport, Stepper};
+use crate::integrator::{Adaptive, Multistep, Clocked, Counters, IntegrationError, StepReport, Stepper};
 use crate::run::adaptation::Adaptation;
 use crate::run::diagnostics::Diagnostics;
 use crate::run::equilibrium::Equilibrium;
@@ -56,7 +56,7 @@ pub const ENERGY_TOLERANCE_SHARE: f64 = 0.01;
 pub struct Simulation {
     membrane: Membrane,
     diagnostics: Diagnostics,
-    integration: Adaptive<Bdf>,
+    integration: Adaptive<Multistep>,
     gauges: Gauges,
     /// Chooses the nodes, if the scene leaves that to the program.
     adaptation: Option<Adaptation>,

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use super::Simulation;
 use crate::flow::Regrading;
-use crate::integrator::{Adaptive, AdaptiveOptions, Bdf, Factorisation, Finish, Problem, Stepper};
+use crate::integrator::{Adaptive, AdaptiveOptions, Multistep, Factorisation, Finish, Problem, Stepper};
 use crate::run::adaptation::{Look, Plan, Way};
 use crate::run::mesh::Mesh;
 
@@ -47,8 +47,13 @@ impl Simulation {
                 for (_, state) in &mut memory.points {
                     *state = old.resampled(state, &new);
                 }
+                if let Some(mut own) = memory.exponential.take() {
+                    own.rates.iter_mut().for_each(|rate| *rate = old.resampled(rate, &new));
+                    memory.exponential = own.renewed(&mut membrane, &memory.points[0].1);
+                }
             }
             Way::Regraded(grading) => {
+                memory = memory.implicit();
                 let flow = self.membrane.flow();
                 let mut way = Regrading::new(flow, membrane.layout(), grading.clone(), turning_number);
                 for (_, state) in &mut memory.points {
@@ -66,7 +71,7 @@ impl Simulation {
             return None;
         }
         memory.factorisation = Factorisation::default();
-        let stepper = Bdf::resume(&membrane, memory, self.tolerance);
+        let stepper = Multistep::resume(&membrane, memory, self.tolerance);
         let options = AdaptiveOptions { end: self.next_stop(), ..*self.integration.options() };
         let mut counters = *self.integration.counters();
         counters.remaps += 1;

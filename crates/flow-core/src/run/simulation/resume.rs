@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::Simulation;
 use super::clocks::Clocks;
 use crate::integrator::{
-    self, Adaptive, AdaptiveOptions, Bdf, Counters, IntegrationError, Problem, Rest, Stepper, Stopwatch,
+    self, Adaptive, AdaptiveOptions, Multistep, Counters, IntegrationError, Problem, Rest, Stepper, Stopwatch,
 };
 use crate::run::adaptation::Adaptation;
 use crate::run::equilibrium::Equilibrium;
@@ -168,7 +168,7 @@ impl Simulation {
         if lengths.iter().any(|length| *length as u64 != memory.counters.steps) {
             return Err(foreign("the log of steps"));
         }
-        let stepper = Bdf::resume(&simulation.membrane, memory.integration, simulation.tolerance);
+        let stepper = Multistep::resume(&simulation.membrane, memory.integration, simulation.tolerance);
         if stepper.time() > simulation.end {
             return Err(foreign("the time"));
         }

@@ -5,7 +5,7 @@ use std::time::Instant;
 use super::clocks::Clocks;
 use super::{ENERGY_TOLERANCE_SHARE, Simulation};
 use crate::integrator::{
-    Adaptive, AdaptiveOptions, Bdf, Clocked, Counters, Finish, INTEGRALS, Problem, Stopwatch,
+    Adaptive, AdaptiveOptions, Multistep, Clocked, Counters, Finish, INTEGRALS, Integrals, Problem, Stopwatch,
 };
 use crate::run::equilibrium::Equilibrium;
 use crate::run::frames::{Start, frame};
@@ -59,10 +59,11 @@ impl Simulation {
         let mut counters = Counters::default();
         let mut watch = Stopwatch::default();
         let first_rate = Instant::now();
-        let stepper = Bdf::new(
+        let integrals = Integrals::new(0.0, [0.0; INTEGRALS], integral_rates);
+        let stepper = Multistep::starting(
             &mut Clocked::new(&mut membrane, &mut watch),
             &state,
-            integral_rates,
+            integrals,
             scene.accuracy.tolerance,
             &mut counters,
         );

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::Simulation;
-use crate::integrator::{Adaptive, AdaptiveOptions, Bdf, Finish, Integrals, Problem, StepReport, Stepper};
+use crate::integrator::{Adaptive, AdaptiveOptions, Multistep, Finish, Integrals, Problem, StepReport, Stepper};
 use crate::run::adaptation::Adaptation;
 use crate::run::gauges::Switched;
 use crate::run::mesh::Mesh;
@@ -38,7 +38,7 @@ impl Simulation {
         self.remapped_at = counters.steps;
         let integrals = Integrals::new(report.time, self.integration.integrals(), integral_rates);
         let stepper =
-            Bdf::starting(&mut self.membrane, &self.scratch, integrals, self.tolerance, &mut counters);
+            Multistep::starting(&mut self.membrane, &self.scratch, integrals, self.tolerance, &mut counters);
         let options = AdaptiveOptions { end: self.next_stop(), ..*self.integration.options() };
         self.integration = Adaptive::new(stepper, options, energy, counters);
         let seconds = clock.elapsed().as_secs_f64();

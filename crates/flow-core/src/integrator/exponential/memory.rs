@@ -1,0 +1,111 @@
+//! Start of the method, and what it takes to go on.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Exponential, HIGHEST_ORDER, Moments, OLDEST_PART};
+use crate::integrator::error_norm::ErrorNorm;
+use crate::integrator::history::History;
+use crate::integrator::linear_part::LinearPart;
+use crate::integrator::memory::Memory;
+use crate::integrator::newton::Factorisation;
+use crate::integrator::Problem;
+
+/// Local errors may be this multiple of a tolerance of 1e-5; see the BDF.
+const LOCAL_SHARE: f64 = 3.0;
+/// Steps that the stiffness of the rest limits before an implicit method takes over.
+const ENOUGH: u32 = 8;
+
+/// What the exponential method knows besides past states.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ExponentialMemory {
+    /// Rates at the past states.
+    pub rates: Vec<Vec<f64>>,
+    pub(super) part: LinearPart,
+    pub(super) part_age: usize,
+    pub(super) limited: u32,
+}
+
+impl ExponentialMemory {
+    /// Of a method at its start, at one state with its rate.
+    pub(in crate::integrator) fn start(rate: Vec<f64>, part: LinearPart) -> Self {
+        Self { rates: vec![rate], part, part_age: 0, limited: 0 }
+    }
+
+    /// The same with Λ taken anew from `problem` at `state`.
+    pub fn renewed(self, problem: &mut dyn Problem, state: &[f64]) -> Option<Self> {
+        Some(Self { part: problem.linear_part(state)?, part_age: 0, ..self })
+    }
+
+    /// Whether it belongs to `points` states of `size` entries.
+    pub(in crate::integrator) fn fits(&self, points: usize, size: usize) -> bool {
+        let sound = |rate: &Vec<f64>| rate.len() == size && rate.iter().all(|value| value.is_finite());
+        self.rates.len() == points && self.rates.iter().all(sound) && self.part.fits(size)
+    }
+}
+
+impl Exponential {
+    /// Goes on from `memory` and `own`, to the same local errors as before if `tolerance` is the same.
+    #[must_use]
+    pub fn resume(problem: &dyn Problem, memory: Memory, own: ExponentialMemory, tolerance: f64) -> Self {
+        let size = problem.size();
+        let zero = || vec![0.0; size];
+        let times = memory.points.iter().map(|(time, _)| *time);
+        let rates: Vec<_> = times.zip(own.rates).collect();
+        let mut method = Self {
+            states: History::of(size, &memory.points),
+            rates: History::of(size, &rates),
+            integrals: memory.integrals,
+            norm: ErrorNorm::new(problem),
+            tolerance: LOCAL_SHARE * tolerance * (tolerance / 1e-5).min(1.0).powf(1.0 / (HIGHEST_ORDER + 1) as f64),
+            part: own.part,
+            part_age: own.part_age.min(OLDEST_PART),
+            moments: Moments::new(size),
+            rests: vec![zero(); History::ROOM],
+            bases: [zero(), zero()],
+            order: memory.order.min(HIGHEST_ORDER),
+            last_order: memory.last_order.min(HIGHEST_ORDER),
+            step: memory.step,
+            steps_at_order: memory.steps_at_order,
+            accepted: memory.accepted,
+            failures: memory.failures,
+            limited: own.limited,
+            own_error: 0.0,
+            predicted: zero(),
+            candidate: zero(),
+            predicted_rest: zero(),
+            missed: zero(),
+            scratch: zero(),
+        };
+        method.decompose();
+        method
+    }
+
+    /// What it takes to go on from here.
+    #[must_use]
+    pub fn memory(&self) -> Memory {
+        let rates = self.rates.points().into_iter().map(|(_, rate)| rate).collect();
+        Memory {
+            points: self.states.points(),
+            integrals: self.integrals.clone(),
+            factorisation: Factorisation::default(),
+            exponential: Some(ExponentialMemory {
+                rates,
+                part: self.part.clone(),
+                part_age: self.part_age,
+                limited: self.limited,
+            }),
+            order: self.order,
+            last_order: self.last_order,
+            step: self.step,
+            steps_at_order: self.steps_at_order,
+            accepted: self.accepted,
+            failures: self.failures,
+        }
+    }
+
+    /// Whether the stiffness of the rest has limited so many steps that an implicit method would do better.
+    #[must_use]
+    pub fn is_exhausted(&self) -> bool {
+        self.limited >= ENOUGH
+    }
+}

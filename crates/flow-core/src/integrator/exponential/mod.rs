@@ -1,0 +1,268 @@
+//! Exponential Adams method of variable order and step size, predict–evaluate–correct–evaluate.
+//!
+//! With J ≈ Λ + rest, Λ diagonal in its eigenbasis, dy/dt = Λy + N(y). The solution of this with a polynomial in place of N is
+//! exact in Λ:  y(t + h) = e^{hΛ}y + h Σᵢ mᵢ(hΛ) cᵢ,  P(θ) = Σ cᵢθⁱ. The predictor's polynomial goes through the last k values
+//! of N, the corrector's through these and the value at the prediction; what they differ by without the oldest value is the
+//! error. There are no linear systems: it serves while N is not stiff. See `THEORY.md`, eqs. (I9)–(I11); Hochbruck & Ostermann,
+//! BIT 51 (2011) 889; order and step size as Shampine & Gordon, Computer Solution of Ordinary Differential Equations (1975).
+
+mod control;
+mod memory;
+mod moments;
+mod polynomials;
+
+use super::error_norm::ErrorNorm;
+use super::history::History;
+use super::integrals::Integrals;
+use super::linear_part::LinearPart;
+use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
+use crate::geometry::vectors::{add_scaled, add_scaled_product};
+pub use memory::ExponentialMemory;
+use moments::{Moments, moments_at};
+use polynomials::{Coefficients, lagrange_basis, of_last_point, of_new_value};
+
+/// Most values of N that a prediction goes through.
+const HIGHEST_ORDER: usize = 6;
+/// Moments for polynomials through one value more.
+const MOST_MOMENTS: usize = HIGHEST_ORDER + 1;
+/// Accepted steps after which Λ is taken anew.
+const OLDEST_PART: usize = 20;
+
+/// The method with its state.
+#[derive(Clone, Debug)]
+pub struct Exponential {
+    states: History,
+    /// f at these states.
+    rates: History,
+    integrals: Integrals,
+    norm: ErrorNorm,
+    tolerance: f64,
+    part: LinearPart,
+    part_age: usize,
+    moments: Moments,
+    /// N = f − Λy at the states in the eigenbasis, newest first; the newest states there.
+    rests: Vec<Vec<f64>>,
+    bases: [Vec<f64>; 2],
+    order: usize,
+    last_order: usize,
+    step: f64,
+    steps_at_order: usize,
+    accepted: u64,
+    failures: u32,
+    limited: u32,
+    /// Estimate of the error of the candidate.
+    own_error: f64,
+    predicted: Vec<f64>,
+    candidate: Vec<f64>,
+    /// N at the prediction, and what it differs by from what the last values make of it.
+    predicted_rest: Vec<f64>,
+    missed: Vec<f64>,
+    scratch: Vec<f64>,
+}
+
+impl Exponential {
+    /// θ of the last `points` states.
+    fn nodes(&self, points: usize) -> [f64; MOST_MOMENTS] {
+        let times = self.states.times();
+        let mut nodes = [0.0; MOST_MOMENTS];
+        nodes.iter_mut().zip(&times[..points]).for_each(|(node, time)| *node = (time - times[0]) / self.step);
+        nodes
+    }
+
+    /// Takes Λ anew from the last state if it has aged.
+    fn renew(&mut self, problem: &mut dyn Problem, counters: &mut Counters) {
+        if self.part_age < OLDEST_PART {
+            return;
+        }
+        if let Some(part) = problem.linear_part(self.states.state(0)) {
+            counters.right_hand_sides += 1; // the linearisation takes as much
+            counters.factorisations += 1;
+            self.part = part;
+            self.moments.forget();
+            self.decompose();
+        }
+        self.part_age = 0;
+    }
+
+    /// The states and the rates in the eigenbasis.
+    fn decompose(&mut self) {
+        for back in 0..self.states.len() {
+            decompose(&self.part, self.states.state(back), self.rates.state(back), &mut self.rests[back], &mut self.scratch);
+            if back < self.bases.len() {
+                self.bases[back].copy_from_slice(&self.scratch);
+            }
+        }
+    }
+
+    /// The prediction; `scratch` is then what the last values make of N there.
+    fn predict(&mut self) {
+        let points = self.order;
+        let basis = lagrange_basis(&self.nodes(points)[..points]);
+        let Self { predicted, predicted_rest: extrapolated, scratch, moments, .. } = self;
+        extrapolated.fill(0.0);
+        predicted.fill(0.0);
+        add_scaled_product(predicted, 1.0, moments.decay(), &self.bases[0]);
+        for i in 0..points {
+            scratch.fill(0.0);
+            for (rest, polynomial) in self.rests.iter().zip(&basis[..points]) {
+                add_scaled(scratch, polynomial[i], rest);
+            }
+            add_scaled_product(predicted, self.step, moments.values(i), scratch);
+            add_scaled(extrapolated, 1.0, scratch);
+        }
+        std::mem::swap(scratch, extrapolated);
+        self.part.from_eigenbasis(predicted);
+    }
+
+    /// out = h Σ aᵢ mᵢ(hΛ) v, in the original basis.
+    fn integrate(&mut self, polynomial: &Coefficients, degree: usize) {
+        self.scratch.fill(0.0);
+        for (i, coefficient) in polynomial[..=degree].iter().enumerate() {
+            add_scaled_product(&mut self.scratch, self.step * coefficient, self.moments.values(i), &self.missed);
+        }
+        self.part.from_eigenbasis(&mut self.scratch);
+    }
+
+    /// Estimate of the error of order `order`, for what `order` values miss at the prediction.
+    fn error(&mut self, order: usize) -> f64 {
+        let polynomial = of_last_point(&self.nodes(order)[..order]);
+        self.integrate(&polynomial, order);
+        self.norm.norm(&self.scratch)
+    }
+}
+
+/// `rest` = N of the state `y` with the rate `f` in the eigenbasis, and `base` = y there.
+fn decompose(part: &LinearPart, y: &[f64], f: &[f64], rest: &mut [f64], base: &mut [f64]) {
+    base.copy_from_slice(y);
+    part.to_eigenbasis(base);
+    rest.copy_from_slice(f);
+    part.to_eigenbasis(rest);
+    add_scaled_product(rest, -1.0, part.rates(), base);
+}
+
+impl Stepper for Exponential {
+    fn time(&self) -> f64 {
+        self.states.times()[0]
+    }
+
+    fn state(&self) -> &[f64] {
+        self.states.state(0)
+    }
+
+    fn integrals(&self) -> [f64; INTEGRALS] {
+        self.integrals.values()
+    }
+
+    fn step_size(&self) -> f64 {
+        self.step
+    }
+
+    fn limit_step_size(&mut self, largest: f64) {
+        self.step = self.step.min(largest);
+    }
+
+    /// That of the corrector.
+    #[allow(clippy::misnamed_getters)] // the order of the last step; `order` is that of the next
+    fn order(&self) -> usize {
+        self.last_order + 1
+    }
+
+    fn attempt(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> Result<(), Rejection> {
+        self.renew(problem, counters);
+        self.norm.rescale(problem, self.states.state(0));
+        self.moments.set(self.step, self.part.rates(), (self.order + 2).min(MOST_MOMENTS));
+        self.predict();
+        problem.rate(&self.predicted, &mut self.candidate);
+        counters.right_hand_sides += 1;
+        let Self { part, predicted, candidate, predicted_rest, missed, scratch, .. } = self;
+        std::mem::swap(missed, scratch); // what the last values make of N
+        decompose(part, predicted, candidate, predicted_rest, scratch);
+        missed.iter_mut().zip(&*predicted_rest).for_each(|(missed, rest)| *missed = rest - *missed);
+        self.integrate(&of_new_value(&self.nodes(self.order)[..self.order]), self.order);
+        for ((y, predicted), correction) in self.candidate.iter_mut().zip(&self.predicted).zip(&self.scratch) {
+            *y = predicted + correction;
+        }
+        let error = self.error(self.order);
+        self.own_error = error;
+        if error <= self.tolerance {
+            return Ok(());
+        }
+        let growth = if error.is_finite() { self.growth(error, self.order, 2.0) } else { 0.0 };
+        self.fail(growth.clamp(0.2, 0.9));
+        Err(Rejection::Error)
+    }
+
+    fn candidate(&mut self) -> &mut [f64] {
+        &mut self.candidate
+    }
+
+    fn gain(&self, integral_rates: [f64; INTEGRALS]) -> [f64; INTEGRALS] {
+        self.integrals.gain(self.time() + self.step, integral_rates)
+    }
+
+    fn hold(&mut self, size: f64) {
+        self.step = size;
+        let time = self.time() + size;
+        self.candidate.copy_from_slice(self.states.state(0));
+        self.states.push(time, &self.candidate);
+        self.scratch.fill(0.0);
+        self.rates.push(time, &self.scratch);
+        self.decompose();
+        self.integrals.hold(time);
+        (self.order, self.last_order, self.steps_at_order, self.failures) = (1, 1, 0, 0);
+        self.accepted += 1;
+        self.step *= control::MOST_GROWTH;
+    }
+
+    fn refuse(&mut self) {
+        self.fail(0.5);
+    }
+
+    fn accept(&mut self, problem: &mut dyn Problem, integral_rates: [f64; INTEGRALS]) {
+        let time = self.time() + self.step;
+        self.last_order = self.order;
+        self.steps_at_order += 1;
+        self.rests.rotate_right(1);
+        self.bases.rotate_right(1);
+        problem.finished_rate(&self.candidate, &mut self.scratch);
+        self.rates.push(time, &self.scratch);
+        let Self { part, candidate, rates, rests, bases, .. } = self;
+        decompose(part, candidate, rates.state(0), &mut rests[0], &mut bases[0]);
+        let limited = self.is_limited();
+        self.plan();
+        self.states.push(time, &self.candidate);
+        self.integrals.push(time, integral_rates);
+        self.accepted += 1;
+        self.part_age += 1;
+        self.failures = 0;
+        self.limited = if limited { self.limited + 1 } else { self.limited.saturating_sub(1) };
+    }
+
+    /// The formula of the step itself, with the values of N at its end and before.
+    fn interpolate(&self, time: f64, y: &mut [f64]) -> [f64; INTEGRALS] {
+        let times = self.states.times();
+        let points = (self.last_order + 1).min(self.states.len());
+        if points < 2 {
+            y.copy_from_slice(self.states.state(0));
+            return self.integrals.at(time);
+        }
+        let size = time - times[1];
+        let mut nodes = [0.0; MOST_MOMENTS];
+        nodes.iter_mut().zip(&times[..points]).for_each(|(node, at)| *node = (at - times[1]) / size);
+        let basis = lagrange_basis(&nodes[..points]);
+        let (mut moments, mut weights, mut last, mut decay) = ([0.0; MOST_MOMENTS], [0.0; MOST_MOMENTS], f64::NAN, 1.0);
+        for (entry, (y, rate)) in y.iter_mut().zip(self.part.rates()).enumerate() {
+            if rate.to_bits() != last.to_bits() {
+                last = *rate;
+                decay = moments_at(size * rate, &mut moments[..points]);
+                for (weight, polynomial) in weights.iter_mut().zip(&basis[..points]) {
+                    *weight = size * polynomial.iter().zip(&moments[..points]).map(|(a, m)| a * m).sum::<f64>();
+                }
+            }
+            let driven = weights[..points].iter().zip(&self.rests).map(|(weight, rest)| weight * rest[entry]);
+            *y = decay * self.bases[1][entry] + driven.sum::<f64>();
+        }
+        self.part.from_eigenbasis(y);
+        self.integrals.at(time)
+    }
+}

@@ -1,0 +1,171 @@
+//! Moments of the exponential, mᵢ(z) = ∫₀¹ e^{(1−θ)z} θⁱ dθ = i! φᵢ₊₁(z). See `THEORY.md`, eq. (I9).
+
+#![allow(clippy::inline_always)] // these bodies must be compiled inside each version of the loop
+
+use multiversion::multiversion;
+
+use super::MOST_MOMENTS;
+use crate::expression::vector_math::exp;
+
+/// Below this |z| the recursion mᵢ = (i mᵢ₋₁ − 1)/z loses digits, and m of the highest index is summed.
+const SMALL: f64 = 2.0;
+/// Terms of that sum, to rounding.
+const TERMS: usize = 22;
+/// Entries whose moments are computed at a time.
+const LANES: usize = 8;
+
+/// e^z, and m₀ … mₙ₋₁ at each z, n the length of `moments`.
+#[inline(always)]
+fn moments_of(z: [f64; LANES], moments: &mut [[f64; LANES]]) -> [f64; LANES] {
+    let decay = z.map(exp);
+    if z.iter().all(|z| z.abs() >= SMALL) {
+        by_recursion(z, decay, moments);
+    } else if z.iter().all(|z| z.abs() < SMALL) {
+        by_series(z, moments);
+    } else {
+        let mut others = [[0.0; LANES]; MOST_MOMENTS];
+        by_series(z.map(|z| z.clamp(-SMALL, SMALL)), moments);
+        by_recursion(z.map(|z| if z.abs() < SMALL { -SMALL } else { z }), decay, &mut others[..moments.len()]);
+        for (moment, other) in moments.iter_mut().zip(&others) {
+            for k in 0..LANES {
+                moment[k] = if z[k].abs() < SMALL { moment[k] } else { other[k] };
+            }
+        }
+    }
+    decay
+}
+
+#[inline(always)]
+fn by_recursion(z: [f64; LANES], decay: [f64; LANES], moments: &mut [[f64; LANES]]) {
+    let inverse = z.map(|z| 1.0 / z);
+    let mut last: [f64; LANES] = std::array::from_fn(|k| (decay[k] - 1.0) * inverse[k]);
+    for (i, moment) in moments.iter_mut().enumerate() {
+        if i > 0 {
+            last = std::array::from_fn(|k| (i as f64 * last[k] - 1.0) * inverse[k]);
+        }
+        *moment = last;
+    }
+}
+
+/// mᵢ = Σ zᵏ i!/(i + 1 + k)! for the highest i, summed from its end; the others by mᵢ₋₁ = (z mᵢ + 1)/i.
+#[inline(always)]
+fn by_series(z: [f64; LANES], moments: &mut [[f64; LANES]]) {
+    let Some(highest) = moments.len().checked_sub(1) else { return };
+    let mut sum = [1.0; LANES];
+    for k in (1..TERMS).rev() {
+        let inverse = 1.0 / (highest + 1 + k) as f64;
+        sum = std::array::from_fn(|lane| 1.0 + sum[lane] * z[lane] * inverse);
+    }
+    let inverse = 1.0 / (highest + 1) as f64;
+    moments[highest] = sum.map(|sum| sum * inverse);
+    for i in (1..=highest).rev() {
+        let inverse = 1.0 / i as f64;
+        moments[i - 1] = std::array::from_fn(|lane| (z[lane] * moments[i][lane] + 1.0) * inverse);
+    }
+}
+
+/// Into `decay` and the first `count` of `values`, at z = `size` × rate for each of the `rates`.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn fill(size: f64, rates: &[f64], count: usize, decay: &mut [f64], values: &mut [Vec<f64>]) {
+    let mut moments = [[0.0; LANES]; MOST_MOMENTS];
+    for start in (0..rates.len()).step_by(LANES) {
+        let width = LANES.min(rates.len() - start);
+        let z = std::array::from_fn(|k| size * rates[start + k.min(width - 1)]);
+        let decays = moments_of(z, &mut moments[..count]);
+        decay[start..start + width].copy_from_slice(&decays[..width]);
+        for (values, moment) in values.iter_mut().zip(&moments[..count]) {
+            values[start..start + width].copy_from_slice(&moment[..width]);
+        }
+    }
+}
+
+/// e^z, and m₀ … mₙ₋₁ at one z, n the length of `moments`.
+pub fn moments_at(z: f64, moments: &mut [f64]) -> f64 {
+    let mut lanes = [[0.0; LANES]; MOST_MOMENTS];
+    let decay = moments_of([z; LANES], &mut lanes[..moments.len()]);
+    moments.iter_mut().zip(&lanes).for_each(|(moment, lanes)| *moment = lanes[0]);
+    decay[0]
+}
+
+/// The moments of all entries for one step size.
+#[derive(Clone, Debug)]
+pub struct Moments {
+    /// Step size, and how many of the moments are known.
+    size: f64,
+    known: usize,
+    decay: Vec<f64>,
+    values: Vec<Vec<f64>>,
+}
+
+impl Moments {
+    /// Room for `entries` entries.
+    pub fn new(entries: usize) -> Self {
+        let values = vec![vec![0.0; entries]; MOST_MOMENTS];
+        Self { size: 0.0, known: 0, decay: vec![0.0; entries], values }
+    }
+
+    /// The rates have changed.
+    pub fn forget(&mut self) {
+        self.known = 0;
+    }
+
+    /// The first `count` moments at zₑ = `size` × rate of entry e.
+    pub fn set(&mut self, size: f64, rates: &[f64], count: usize) {
+        if size.to_bits() == self.size.to_bits() && count <= self.known {
+            return;
+        }
+        (self.size, self.known) = (size, count);
+        fill(size, rates, count, &mut self.decay, &mut self.values);
+    }
+
+    /// e^z.
+    pub fn decay(&self) -> &[f64] {
+        &self.decay
+    }
+
+    /// mᵢ.
+    pub fn values(&self, i: usize) -> &[f64] {
+        &self.values[i]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By Gauss–Legendre quadrature on many pieces.
+    fn reference(z: f64, i: i32) -> f64 {
+        let pieces = 40_000;
+        let at = |x: f64| ((1.0 - x) * z).exp() * x.powi(i);
+        let shift = 0.5 / 3.0_f64.sqrt();
+        let pair = |k: i32| {
+            let middle = (f64::from(k) + 0.5) / f64::from(pieces);
+            let step = shift / f64::from(pieces);
+            0.5 * (at(middle - step) + at(middle + step)) / f64::from(pieces)
+        };
+        (0..pieces).map(pair).sum()
+    }
+
+    #[test]
+    fn moments_are_the_integrals() {
+        for z in [-300.0, -30.0, -2.0, -1.0, -0.999, -0.1, -1e-9, 0.0, 0.5, 3.0] {
+            let mut moments = [0.0; MOST_MOMENTS];
+            let decay = moments_at(z, &mut moments);
+            assert!((decay / z.exp() - 1.0).abs() < 1e-15);
+            for (i, moment) in moments.iter().enumerate() {
+                let exact = reference(z, i as i32);
+                assert!((moment - exact).abs() < 1e-9 * exact.abs().max(1e-3), "m{i}({z}) = {moment} ≠ {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_branches_meet() {
+        let (mut inside, mut outside) = ([0.0; MOST_MOMENTS], [0.0; MOST_MOMENTS]);
+        moments_at(-SMALL * (1.0 - 1e-15), &mut inside);
+        moments_at(-SMALL, &mut outside);
+        for (inside, outside) in inside.iter().zip(&outside) {
+            assert!((inside - outside).abs() < 1e-11, "{inside} ≠ {outside}");
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! The method of a run: exponential while that pays, implicit from then on.
+
+use super::bdf::Bdf;
+use super::exponential::{Exponential, ExponentialMemory};
+use super::memory::Memory;
+use super::newton::Factorisation;
+use super::{Counters, ErrorNorm, INTEGRALS, Integrals, Problem, Rejection, Stepper};
+
+/// Either of the two multistep methods. Both hold past states, so that the change from one to the other costs nothing.
+#[derive(Clone, Debug)]
+pub struct Multistep {
+    method: Method,
+    tolerance: f64,
+}
+
+#[derive(Clone, Debug)]
+enum Method {
+    Exponential(Box<Exponential>),
+    Implicit(Box<Bdf>),
+}
+
+impl Multistep {
+    /// Starts at `y` and the time of `integrals`, which go on from their values, with local errors below `tolerance` in the
+    /// relative norm; with the exponential method if `problem` has a linear part.
+    pub fn starting(
+        problem: &mut dyn Problem,
+        y: &[f64],
+        integrals: Integrals,
+        tolerance: f64,
+        counters: &mut Counters,
+    ) -> Self {
+        let Some(part) = problem.linear_part(y) else {
+            let bdf = Bdf::starting(problem, y, integrals, tolerance, counters);
+            return Self { method: Method::Implicit(Box::new(bdf)), tolerance };
+        };
+        let mut norm = ErrorNorm::new(problem);
+        norm.rescale(problem, y);
+        let mut rate = vec![0.0; y.len()];
+        problem.rate(y, &mut rate);
+        counters.right_hand_sides += 2;
+        counters.factorisations += 1;
+        let memory = Memory {
+            points: vec![(integrals.time(), y.to_vec())],
+            integrals,
+            factorisation: Factorisation::default(),
+            order: 1,
+            last_order: 1,
+            step: first_step(tolerance, norm.norm(&rate)),
+            steps_at_order: 0,
+            accepted: 0,
+            failures: 0,
+            exponential: Some(ExponentialMemory::start(rate, part)),
+        };
+        Self::resume(problem, memory, tolerance)
+    }
+
+    /// Goes on from `memory`, to the same local errors as before if `tolerance` is the same.
+    ///
+    /// The factorisation that the memory speaks of must be in `problem`.
+    #[must_use]
+    pub fn resume(problem: &dyn Problem, mut memory: Memory, tolerance: f64) -> Self {
+        let method = match memory.exponential.take() {
+            Some(own) => Method::Exponential(Box::new(Exponential::resume(problem, memory, own, tolerance))),
+            None => Method::Implicit(Box::new(Bdf::resume(problem, memory, tolerance))),
+        };
+        Self { method, tolerance }
+    }
+
+    /// What it takes to go on from here.
+    #[must_use]
+    pub fn memory(&self) -> Memory {
+        match &self.method {
+            Method::Exponential(method) => method.memory(),
+            Method::Implicit(method) => method.memory(),
+        }
+    }
+
+    /// Whether the steps are those of the exponential method.
+    #[must_use]
+    pub fn is_exponential(&self) -> bool {
+        matches!(self.method, Method::Exponential(_))
+    }
+
+    fn stepper(&self) -> &dyn Stepper {
+        match &self.method {
+            Method::Exponential(method) => &**method,
+            Method::Implicit(method) => &**method,
+        }
+    }
+
+    fn stepper_mut(&mut self) -> &mut dyn Stepper {
+        match &mut self.method {
+            Method::Exponential(method) => &mut **method,
+            Method::Implicit(method) => &mut **method,
+        }
+    }
+}
+
+/// A first step that moves the state by a small part of the tolerance's root: order 1 has error O(h²).
+pub(super) fn first_step(tolerance: f64, rate: f64) -> f64 {
+    0.1 * tolerance.sqrt() / rate.max(1e-280)
+}
+
+impl Stepper for Multistep {
+    fn time(&self) -> f64 {
+        self.stepper().time()
+    }
+
+    fn state(&self) -> &[f64] {
+        self.stepper().state()
+    }
+
+    fn integrals(&self) -> [f64; INTEGRALS] {
+        self.stepper().integrals()
+    }
+
+    fn step_size(&self) -> f64 {
+        self.stepper().step_size()
+    }
+
+    fn limit_step_size(&mut self, largest: f64) {
+        self.stepper_mut().limit_step_size(largest);
+    }
+
+    fn order(&self) -> usize {
+        self.stepper().order()
+    }
+
+    fn attempt(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> Result<(), Rejection> {
+        if let Method::Exponential(method) = &self.method
+            && method.is_exhausted()
+        {
+            let memory = method.memory().implicit();
+            self.method = Method::Implicit(Box::new(Bdf::resume(problem, memory, self.tolerance)));
+        }
+        self.stepper_mut().attempt(problem, counters)
+    }
+
+    fn polish(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> bool {
+        self.stepper_mut().polish(problem, counters)
+    }
+
+    fn candidate(&mut self) -> &mut [f64] {
+        self.stepper_mut().candidate()
+    }
+
+    fn gain(&self, integral_rates: [f64; INTEGRALS]) -> [f64; INTEGRALS] {
+        self.stepper().gain(integral_rates)
+    }
+
+    fn hold(&mut self, size: f64) {
+        self.stepper_mut().hold(size);
+    }
+
+    fn refuse(&mut self) {
+        self.stepper_mut().refuse();
+    }
+
+    fn accept(&mut self, problem: &mut dyn Problem, integral_rates: [f64; INTEGRALS]) {
+        self.stepper_mut().accept(problem, integral_rates);
+    }
+
+    fn interpolate(&self, time: f64, y: &mut [f64]) -> [f64; INTEGRALS] {
+        self.stepper().interpolate(time, y)
+    }
+}
