@@ -1,8 +1,7 @@
 //! Order and size of the next step, and the watch over what limits it.
 
 use super::{Exponential, HIGHEST_ORDER};
-use crate::geometry::vectors::add_scaled;
-use crate::integrator::history::lagrange;
+use crate::integrator::Rejection;
 
 /// Safety factors on the error of order k − 1, k, k + 1: a change of order must pay.
 const BIAS: [f64; 3] = [3.0, 2.0, 3.0];
@@ -15,9 +14,9 @@ const FIRST_GROWTH: f64 = 1e4;
 const STIFF: f64 = 0.4;
 
 impl Exponential {
-    /// Ratio of the next step size that keeps an error at the tolerance.
-    pub(super) fn growth(&self, error: f64, order: usize, bias: f64) -> f64 {
-        1.0 / ((bias * error / self.tolerance).powf(1.0 / (order + 1) as f64) + 1e-6)
+    /// Ratio of the next step size that keeps an error of order `order` at the tolerance.
+    fn growth(&self, error: f64, order: usize, bias: f64) -> f64 {
+        1.0 / ((bias * error / self.tolerance).powf(1.0 / (order as f64 + 1.5)) + 1e-6)
     }
 
     /// After an attempt that was thrown away.
@@ -43,36 +42,45 @@ impl Exponential {
         again > STIFF * self.norm.norm(&self.scratch)
     }
 
-    /// Estimate of the error that the step would have had at order `order`.
-    fn error_of_order(&mut self, order: usize) -> f64 {
-        let nodes = self.nodes(order);
-        let weights = lagrange(1.0, &nodes[..order]).value;
-        self.missed.copy_from_slice(&self.predicted_rest);
-        // The newest of the values is that of the candidate, which is not yet in the history of states.
-        for (weight, rest) in weights[..order].iter().zip(&self.rests[1..]) {
-            add_scaled(&mut self.missed, -weight, rest);
+    /// Estimate of the error at order `order`, for a power of the step size; none if too few values of N are known.
+    ///
+    /// What one value less changes is the error where Λ is stiff; where it is not, the corrector's own order is higher by one, and
+    /// what one value more changes is it. Between the two lies their geometric mean.
+    fn error(&mut self, order: usize) -> Option<f64> {
+        let known = self.states.len();
+        if order == 0 || order > HIGHEST_ORDER || order > known {
+            return None;
         }
-        self.error(order)
+        let stiff = self.difference(order);
+        Some(if order < known { (stiff * self.difference(order + 1)).sqrt() } else { stiff })
     }
 
-    /// Order and step size after an accepted candidate (which is not yet in the history of states).
+    /// Whether the error of the candidate is below the tolerance; what it would be at other orders.
+    pub(super) fn judge(&mut self) -> Result<(), Rejection> {
+        let order = self.order;
+        let error = self.error(order);
+        self.errors = [None, error, None];
+        let error = error.unwrap_or(f64::NAN);
+        if error <= self.tolerance {
+            if self.steps_at_order >= order {
+                self.errors = [self.error(order - 1), Some(error), self.error(order + 1)];
+            }
+            return Ok(());
+        }
+        let growth = if error.is_finite() { self.growth(error, order, BIAS[1]) } else { 0.0 };
+        self.fail(growth.clamp(0.2, 0.9));
+        Err(Rejection::Error)
+    }
+
+    /// Order and size of the step after an accepted candidate.
     pub(super) fn plan(&mut self) {
         let order = self.order;
-        let mut best = (order, self.growth(self.own_error, order, BIAS[1]));
-        if self.steps_at_order > order {
-            if order > 1 {
-                let lower = self.error_of_order(order - 1);
-                let growth = self.growth(lower, order - 1, BIAS[0]);
-                if growth > best.1 {
-                    best = (order - 1, growth);
-                }
-            }
-            if order < HIGHEST_ORDER && self.states.len() > order {
-                let higher = self.error_of_order(order + 1);
-                let growth = self.growth(higher, order + 1, BIAS[2]);
-                if growth > best.1 {
-                    best = (order + 1, growth);
-                }
+        let mut best = (order, 0.0);
+        for (change, (error, bias)) in self.errors.into_iter().zip(BIAS).enumerate() {
+            let Some(error) = error else { continue };
+            let growth = self.growth(error, order + change - 1, bias);
+            if growth > best.1 {
+                best = (order + change - 1, growth);
             }
         }
         let most = if self.accepted == 0 { FIRST_GROWTH } else { MOST_GROWTH };

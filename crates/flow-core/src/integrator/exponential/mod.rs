@@ -12,7 +12,7 @@ mod moments;
 mod polynomials;
 
 use super::error_norm::ErrorNorm;
-use super::history::History;
+use super::history::{History, lagrange};
 use super::integrals::Integrals;
 use super::linear_part::LinearPart;
 use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
@@ -23,8 +23,8 @@ use polynomials::{Coefficients, lagrange_basis, of_last_point, of_new_value};
 
 /// Most values of N that a prediction goes through.
 const HIGHEST_ORDER: usize = 6;
-/// Moments for polynomials through one value more.
-const MOST_MOMENTS: usize = HIGHEST_ORDER + 1;
+/// Moments for polynomials through the value at the prediction, and one value more.
+const MOST_MOMENTS: usize = HIGHEST_ORDER + 2;
 /// Accepted steps after which Λ is taken anew.
 const OLDEST_PART: usize = 20;
 
@@ -50,8 +50,8 @@ pub struct Exponential {
     accepted: u64,
     failures: u32,
     limited: u32,
-    /// Estimate of the error of the candidate.
-    own_error: f64,
+    /// Estimates of the error of the candidate, and of those of an order less and more, where they are known.
+    errors: [Option<f64>; 3],
     predicted: Vec<f64>,
     candidate: Vec<f64>,
     /// N at the prediction, and what it differs by from what the last values make of it.
@@ -123,10 +123,15 @@ impl Exponential {
         self.part.from_eigenbasis(&mut self.scratch);
     }
 
-    /// Estimate of the error of order `order`, for what `order` values miss at the prediction.
-    fn error(&mut self, order: usize) -> f64 {
-        let polynomial = of_last_point(&self.nodes(order)[..order]);
-        self.integrate(&polynomial, order);
+    /// By how much a correction with the last `points` values of N and the one at the prediction differs from one with a value less.
+    fn difference(&mut self, points: usize) -> f64 {
+        let nodes = self.nodes(points);
+        let weights = lagrange(1.0, &nodes[..points]).value;
+        self.missed.copy_from_slice(&self.predicted_rest);
+        for (weight, rest) in weights[..points].iter().zip(&self.rests) {
+            add_scaled(&mut self.missed, -weight, rest);
+        }
+        self.integrate(&of_last_point(&nodes[..points]), points);
         self.norm.norm(&self.scratch)
     }
 }
@@ -170,7 +175,7 @@ impl Stepper for Exponential {
     fn attempt(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> Result<(), Rejection> {
         self.renew(problem, counters);
         self.norm.rescale(problem, self.states.state(0));
-        self.moments.set(self.step, self.part.rates(), (self.order + 2).min(MOST_MOMENTS));
+        self.moments.set(self.step, self.part.rates(), (self.order + 3).min(MOST_MOMENTS));
         self.predict();
         problem.rate(&self.predicted, &mut self.candidate);
         counters.right_hand_sides += 1;
@@ -182,14 +187,7 @@ impl Stepper for Exponential {
         for ((y, predicted), correction) in self.candidate.iter_mut().zip(&self.predicted).zip(&self.scratch) {
             *y = predicted + correction;
         }
-        let error = self.error(self.order);
-        self.own_error = error;
-        if error <= self.tolerance {
-            return Ok(());
-        }
-        let growth = if error.is_finite() { self.growth(error, self.order, 2.0) } else { 0.0 };
-        self.fail(growth.clamp(0.2, 0.9));
-        Err(Rejection::Error)
+        self.judge()
     }
 
     fn candidate(&mut self) -> &mut [f64] {
@@ -242,8 +240,9 @@ impl Stepper for Exponential {
     fn interpolate(&self, time: f64, y: &mut [f64]) -> [f64; INTEGRALS] {
         let times = self.states.times();
         let points = (self.last_order + 1).min(self.states.len());
-        if points < 2 {
-            y.copy_from_slice(self.states.state(0));
+        // There is no polynomial yet, or nothing to be integrated.
+        if points < 2 || time <= times[1] {
+            y.copy_from_slice(self.states.state(usize::from(points > 1)));
             return self.integrals.at(time);
         }
         let size = time - times[1];

@@ -4,9 +4,9 @@ use crate::run::scene::Scene;
 
 /// Part of a state, in units of the tolerance, that may be left unresolved for errors of about the tolerance.
 const LEFT_OUT: f64 = 2.0;
-/// At loose tolerances fronts that are hardly resolved are held by the nodes, and that error is far larger than what is
-/// not resolved.
 const MOST_LEFT_OUT: f64 = 3e-4;
+/// Fronts that are hardly resolved are held by the nodes, and that error is far larger than what is not resolved.
+const MOST_LEFT_OUT_OF_FRONTS: f64 = 2e-5;
 /// The rounding of spectra.
 const LEAST_LEFT_OUT: f64 = 1e-13;
 /// The part of that on nodes that follow the solution: what is not resolved lets the solution slide off its crowds, and
@@ -15,6 +15,7 @@ const LEFT_OUT_OF_CROWDS: f64 = 0.1;
 
 /// Part of the states of `scene` that may be left unresolved, as `resolution::unresolved` measures it.
 pub fn unresolved_bound(scene: &Scene) -> f64 {
-    let part = (LEFT_OUT * scene.accuracy.tolerance).min(MOST_LEFT_OUT);
+    let most = if scene.energy.agents.is_some() { MOST_LEFT_OUT_OF_FRONTS } else { MOST_LEFT_OUT };
+    let part = (LEFT_OUT * scene.accuracy.tolerance).min(most);
     (part * if scene.flow.follows_solution() { LEFT_OUT_OF_CROWDS } else { 1.0 }).max(LEAST_LEFT_OUT)
 }
