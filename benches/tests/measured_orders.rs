@@ -71,8 +71,9 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 #[test]
 fn one_step_methods_converge_with_their_order() {
     let exact = bdf(1e-11);
-    for method in Method::ALL.into_iter().filter(|method| *method != Method::Bdf) {
-        let order = method.formula(&setup().0).unwrap().order() as f64;
+    for method in Method::ALL {
+        let Some(formula) = method.formula(&setup().0) else { continue };
+        let order = formula.order() as f64;
         let runs = [20, 40, 80].map(|steps| constant_steps(method, steps));
         let errors = runs.each_ref().map(|y| distance(y, &exact));
         let measured = (errors[1] / errors[2]).log2();

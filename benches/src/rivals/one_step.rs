@@ -173,7 +173,7 @@ impl Stepper for OneStep {
         self.step *= 0.5;
     }
 
-    fn accept(&mut self, integral_rates: [f64; INTEGRALS]) {
+    fn accept(&mut self, _: &mut dyn Problem, integral_rates: [f64; INTEGRALS]) {
         self.start = self.time;
         self.time += self.step;
         self.before.copy_from_slice(&self.state);

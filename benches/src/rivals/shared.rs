@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::ops::Range;
 use std::rc::Rc;
 
-use flow_core::integrator::{Finish, INTEGRALS, Problem};
+use flow_core::integrator::{Finish, INTEGRALS, LinearPart, Problem};
 use flow_core::run::Membrane;
 
 /// A handle on one membrane.
@@ -66,6 +66,14 @@ impl Problem for Shared {
 
     fn finish(&mut self, time: f64, y: &mut [f64]) -> Finish {
         self.0.borrow_mut().finish(time, y)
+    }
+
+    fn finished_rate(&mut self, y: &[f64], rate: &mut [f64]) {
+        self.0.borrow_mut().finished_rate(y, rate);
+    }
+
+    fn linear_part(&mut self, y: &[f64]) -> Option<LinearPart> {
+        self.0.borrow_mut().linear_part(y)
     }
 
     fn accepted(&mut self, time: f64, integrals: [f64; INTEGRALS]) {

@@ -5,6 +5,8 @@
 
 #![allow(clippy::inline_always)] // these bodies must be compiled inside each version of the loops
 
+use std::cell::RefCell;
+use std::collections::HashMap;
 use std::f64::consts::TAU;
 use std::fmt;
 use std::sync::Arc;
@@ -21,7 +23,7 @@ pub struct RealTransform {
     forward: Arc<dyn Fft<f64>>,
     inverse: Arc<dyn Fft<f64>>,
     /// uₖ for k ≤ M/2; empty if the number of values is odd.
-    turns: Vec<Complex64>,
+    turns: Arc<[Complex64]>,
     work: Vec<Complex64>,
     scratch: Vec<Complex64>,
 }
@@ -32,10 +34,28 @@ impl fmt::Debug for RealTransform {
     }
 }
 
+/// Numbers of values whose plans are kept.
+const MOST_PLANS: usize = 64;
+
+thread_local! {
+    /// A run that changes its nodes comes back to the same few numbers, and each of its operators transforms; a plan takes
+    /// longer than a step.
+    static PLANS: RefCell<HashMap<usize, RealTransform>> = RefCell::default();
+}
+
 impl RealTransform {
     /// A transform of `values` ≥ 2 values.
     #[must_use]
     pub fn new(values: usize) -> Self {
+        PLANS.with_borrow_mut(|plans| {
+            if plans.len() >= MOST_PLANS {
+                plans.clear();
+            }
+            plans.entry(values).or_insert_with(|| Self::planned(values)).clone()
+        })
+    }
+
+    fn planned(values: usize) -> Self {
         let even = values.is_multiple_of(2);
         let length = if even { values / 2 } else { values };
         let mut planner = FftPlanner::new();
@@ -54,7 +74,7 @@ impl RealTransform {
             values,
             forward,
             inverse,
-            turns: if even { (0..=length / 2).map(turn).collect() } else { Vec::new() },
+            turns: if even { (0..=length / 2).map(turn).collect() } else { Arc::new([]) },
             work: vec![zero; length],
             scratch: vec![zero; scratch],
         }

@@ -87,9 +87,9 @@ const ROUGH: f64 = 2.0;
 /// Part of the energy tolerance below which such an error does not matter.
 const UNSEEN: f64 = 0.1;
 /// Multiple of the energy tolerance by which the balance of one step may be off; such steps are few.
-const IMBALANCE: f64 = 100.0;
+const IMBALANCE: f64 = 15.0;
 /// Part of that from which on the next step is no larger.
-const WORTH_NO_GROWTH: f64 = 0.4;
+const WORTH_NO_GROWTH: f64 = 0.3;
 const MOST_POLISHES: usize = 6;
 /// The step size must stay above this many units in the last place of the time.
 const LEAST_STEP_ULPS: f64 = 16.0;

@@ -89,7 +89,7 @@ impl Preconditioner {
     /// Whether a banded factorisation exists for states of this flow.
     #[must_use]
     pub fn banded_exists(flow: &GradientFlow) -> bool {
-        banded::build(flow).is_some()
+        banded::exists(flow)
     }
 
     /// Factorises I − γJ at the frozen state of `flow`.

@@ -19,7 +19,7 @@ pub(super) const HIGHEST_ORDER: usize = 5;
 /// Local errors may be this multiple of a tolerance of 1e-5: a dissipative flow forgets them. A tighter tolerance takes
 /// more steps, as its root of the order of the error, whose errors add up: the multiple shrinks with them. The measured
 /// errors of the shipped scenes are in `benches/README.md`.
-const LOCAL_SHARE: f64 = 4.0;
+const LOCAL_SHARE: f64 = 3.0;
 /// Newton's method is solved to this part of the local tolerance: the square of its error, weighted by the
 /// stiffness, enters the dissipation and with it the energy balance.
 const NEWTON_SHARE: f64 = 0.2;

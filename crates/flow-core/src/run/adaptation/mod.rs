@@ -15,7 +15,9 @@ use crate::geometry::{Grading, resample};
 use crate::operators::DerivativeFamily;
 pub(super) use bound::unresolved_bound;
 
-/// Steps on the same nodes before the first look at whether fewer would do; then after twice as many, and so on.
+/// Steps on the same nodes between looks at whether fewer would do.
+const LOOKS: u64 = 4;
+/// Where nodes crowd a look is dear: the first one after so many steps, then after twice as many, and so on.
 const FIRST_LOOK: u64 = 8;
 /// Part of the bound that fewer nodes must meet, and that new ones must where those at hand do not serve.
 const MARGIN_OF_FEWER: f64 = 0.3;
@@ -85,7 +87,8 @@ impl Adaptation {
         let family = self.families[usize::from(membrane.flow().grading().is_some())];
         let part = unresolved(layout, state, layout.nodes(), family);
         let resolved = part <= self.bound;
-        if resolved && !(age >= FIRST_LOOK && age.is_power_of_two()) {
+        let looks = if self.grades { age >= FIRST_LOOK && age.is_power_of_two() } else { age > 0 && age.is_multiple_of(LOOKS) };
+        if resolved && !looks {
             return Look::Serve;
         }
         let aim = self.bound * if resolved { MARGIN_OF_FEWER } else { MARGIN_OF_MORE };

@@ -4,13 +4,13 @@ use serde::{Deserialize, Serialize};
 
 use super::super::invariants::KeptValues;
 use super::Membrane;
+use super::solver::Choice;
 use crate::integrator::Problem;
 
 /// What a membrane knows besides its state.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MembraneMemory {
-    may_turn_to_banded: bool,
-    mean_iterations: f64,
+    solver: Choice,
     kept: KeptValues,
     start_angle: f64,
     placed: [f64; 3],
@@ -22,8 +22,7 @@ impl Membrane {
     #[must_use]
     pub fn memory(&self) -> MembraneMemory {
         MembraneMemory {
-            may_turn_to_banded: self.banded.is_some(),
-            mean_iterations: self.mean_iterations,
+            solver: self.solver.choice(),
             kept: self.invariants.kept_values(),
             start_angle: self.start_angle,
             placed: self.placed,
@@ -37,10 +36,7 @@ impl Membrane {
         if state.len() != self.flow.spectral_layout().len() || !self.invariants.set_kept_values(memory.kept) {
             return false;
         }
-        if !memory.may_turn_to_banded {
-            self.turn_to_banded();
-        }
-        self.mean_iterations = memory.mean_iterations;
+        self.solver.choose(memory.solver);
         self.start_angle = memory.start_angle;
         self.placed = memory.placed;
         if !needed {

@@ -2,16 +2,18 @@
 
 mod linear_part;
 mod memory;
+mod solver;
 
 use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::invariants::Invariants;
-use crate::flow::{GradientFlow, LinearSolver, Preconditioner, Rate};
+use crate::flow::{GradientFlow, LinearSolver, Rate};
 use crate::geometry::vectors::{mean_of_product, multiply};
 use crate::geometry::{Closure, Crossings, Embedding, Layout};
 use crate::integrator::{Finish, INTEGRALS, LinearPart, Problem};
 pub use memory::MembraneMemory;
+use solver::Solver;
 
 /// Index of ∫ dissipation dt among the integrals.
 pub const DISSIPATED: usize = 0;
@@ -20,17 +22,11 @@ pub const ANGLE: usize = 1;
 /// Indices of the mean position.
 pub const CENTRE: Range<usize> = 2..4;
 
-/// Krylov iterations per solve, averaged, above which the automatic choice turns to the banded solver.
-const FOURIER_SERVES: f64 = 3.0;
-
 /// A closed curve with densities under a gradient flow.
 #[derive(Debug)]
 pub struct Membrane {
     flow: GradientFlow,
-    preconditioner: Preconditioner,
-    /// What the automatic choice turns to.
-    banded: Option<Preconditioner>,
-    mean_iterations: f64,
+    solver: Solver,
     closure: Closure,
     crossings: Crossings,
     turning_number: i32,
@@ -56,10 +52,7 @@ impl Membrane {
         let (nodes, size) = (flow.layout().nodes(), flow.spectral_layout().len());
         let may_be_exponential = solver == LinearSolver::Auto && linear_part::exists(&flow);
         Self {
-            preconditioner: Preconditioner::new(solver, &mut flow),
-            banded: (solver == LinearSolver::Auto && Preconditioner::banded_exists(&flow))
-                .then(|| Preconditioner::new(LinearSolver::Banded, &mut flow)),
-            mean_iterations: 0.0,
+            solver: Solver::new(solver, &flow),
             invariants: Invariants::new(&mut flow),
             closure: Closure::graded(nodes, flow.grading().cloned()),
             flow,
@@ -78,10 +71,7 @@ impl Membrane {
 
     /// Goes on from where `before` stands, with what it keeps and the linear solver that served it.
     pub fn follow(&mut self, before: &Self) {
-        if before.banded.is_none() {
-            self.turn_to_banded();
-        }
-        self.mean_iterations = before.mean_iterations;
+        self.solver.follow(&before.solver);
         self.invariants.set_kept_values(before.invariants.kept_values());
         self.start_angle = before.start_angle;
         self.placed = before.placed;
@@ -129,13 +119,6 @@ impl Membrane {
     #[must_use]
     pub fn closure_defect(&self) -> f64 {
         self.closure_defect
-    }
-
-    /// Whether there was a choice left to turn to the banded solver, which is taken now.
-    fn turn_to_banded(&mut self) -> bool {
-        let Some(banded) = self.banded.take() else { return false };
-        self.preconditioner = banded;
-        true
     }
 
     /// Takes the metric of the spectral state `y`, if it is a field there, into the embedding; false if it is not positive.
@@ -232,24 +215,23 @@ impl Problem for Membrane {
         self.factorised.0.copy_from_slice(&self.linearised);
         self.factorised.1 = gamma;
         self.flow.linearisation_fault().is_none()
-            && self.preconditioner.factorise(&mut self.flow, gamma).is_ok()
+            && self.solver.factorise(&mut self.flow, gamma)
     }
 
     fn precondition(&mut self, r: &mut [f64]) {
-        self.preconditioner.apply(&mut self.flow, r);
+        self.solver.apply(&mut self.flow, r);
     }
 
     fn weigh(&self, r: &mut [f64]) {
-        self.preconditioner.weights().weigh(r);
+        self.solver.weigh(r);
     }
 
     fn unweigh(&self, r: &mut [f64]) {
-        self.preconditioner.weights().unweigh(r);
+        self.solver.unweigh(r);
     }
 
     fn krylov_feedback(&mut self, iterations: usize) -> bool {
-        self.mean_iterations += 0.1 * (iterations as f64 - self.mean_iterations);
-        self.mean_iterations > FOURIER_SERVES && self.turn_to_banded()
+        self.solver.learn(iterations)
     }
 
     fn finish(&mut self, time: f64, y: &mut [f64]) -> Finish {

@@ -39,10 +39,19 @@ pub trait Banded: Debug + Send {
     fn apply(&mut self, spectra: &mut [Complex64]);
 }
 
+/// Most fields of the bands below.
+const MOST_FIELDS: usize = 4;
+
+/// Whether [`build`] builds something.
+pub fn exists(flow: &GradientFlow) -> bool {
+    let layout = flow.layout();
+    flow.normal_mobility().order() == 0 && layout.nodes() >= FEWEST_NODES && layout.fields() <= MOST_FIELDS
+}
+
 /// Builds the solver for the number of fields, up to four; none beyond, none on a handful of nodes, and none if the normal
 /// mobility is a differential operator: it widens the band.
 pub fn build(flow: &GradientFlow) -> Option<Box<dyn Banded>> {
-    if flow.normal_mobility().order() > 0 || flow.layout().nodes() < FEWEST_NODES {
+    if !exists(flow) {
         return None;
     }
     let (nodes, grading) = (flow.layout().nodes(), flow.grading().map(Arc::as_ref));

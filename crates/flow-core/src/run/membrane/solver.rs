@@ -1,0 +1,96 @@
+//! The linear solver of a membrane, and the choice between two of them.
+
+use serde::{Deserialize, Serialize};
+
+use crate::flow::{GradientFlow, LinearSolver, Preconditioner};
+
+/// Krylov iterations per solve, averaged, above which the automatic choice turns to the banded solver.
+const FOURIER_SERVES: f64 = 3.0;
+/// Weight of the last solve in that average.
+const WEIGHT: f64 = 0.1;
+
+/// What the automatic choice has come to.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Choice {
+    may_turn_to_banded: bool,
+    mean_iterations: f64,
+}
+
+/// A preconditioner that is built once it is needed: a run that solves no linear systems has none.
+#[derive(Debug)]
+pub struct Solver {
+    kind: LinearSolver,
+    choice: Choice,
+    built: Option<Preconditioner>,
+}
+
+impl Solver {
+    /// One of `kind`; the automatic choice starts with the symbol.
+    pub fn new(kind: LinearSolver, flow: &GradientFlow) -> Self {
+        let may_turn_to_banded = kind == LinearSolver::Auto && Preconditioner::banded_exists(flow);
+        Self { kind, choice: Choice { may_turn_to_banded, mean_iterations: 0.0 }, built: None }
+    }
+
+    /// What has been chosen so far.
+    pub fn choice(&self) -> Choice {
+        self.choice
+    }
+
+    /// Goes on from `choice`.
+    pub fn choose(&mut self, choice: Choice) {
+        if !choice.may_turn_to_banded {
+            self.turn_to_banded();
+        }
+        self.choice.mean_iterations = choice.mean_iterations;
+    }
+
+    /// Goes on where `before` stands.
+    pub fn follow(&mut self, before: &Self) {
+        self.choose(before.choice);
+    }
+
+    /// Whether there was a choice left to turn to the banded solver, which is taken now.
+    fn turn_to_banded(&mut self) -> bool {
+        let turns = std::mem::take(&mut self.choice.may_turn_to_banded);
+        if turns {
+            self.kind = LinearSolver::Banded;
+            self.built = None;
+        }
+        turns
+    }
+
+    /// Learns how many Krylov iterations a solve took; true if the solver is another one from now on.
+    pub fn learn(&mut self, iterations: usize) -> bool {
+        let mean = &mut self.choice.mean_iterations;
+        *mean += WEIGHT * (iterations as f64 - *mean);
+        *mean > FOURIER_SERVES && self.turn_to_banded()
+    }
+
+    /// Factorises at the linearisation of `flow`; false if that fails.
+    pub fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> bool {
+        let kind = self.kind;
+        let built = self.built.get_or_insert_with(|| Preconditioner::new(kind, flow));
+        built.factorise(flow, gamma).is_ok()
+    }
+
+    /// Solves with the last factorisation.
+    pub fn apply(&mut self, flow: &mut GradientFlow, r: &mut [f64]) {
+        if let Some(built) = &mut self.built {
+            built.apply(flow, r);
+        }
+    }
+
+    /// Weighs a residual by the last factorisation.
+    pub fn weigh(&self, r: &mut [f64]) {
+        if let Some(built) = &self.built {
+            built.weights().weigh(r);
+        }
+    }
+
+    /// Undoes [`Self::weigh`].
+    pub fn unweigh(&self, r: &mut [f64]) {
+        if let Some(built) = &self.built {
+            built.weights().unweigh(r);
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! The dial tells the truth: what a tolerance buys, in time and space, on every shipped scene.
+
+use curveflow_tests::shipped;
+use flow_core::run::tradeoff::{Ladder, tradeoff};
+use flow_core::run::{Quiet, Scene};
+
+/// Least and largest ratio of the error that is measured to the one asked for.
+const LEAST: f64 = 0.03;
+const MOST: f64 = 10.0;
+
+/// The largest error of curve, curvature, densities, energy and length, halfway and at the end, against a run a hundred times
+/// tighter than the tightest on as many nodes as that needs.
+fn check(name: &str) {
+    let measured = tradeoff(&shipped(name, &[]), &Ladder::default(), &mut Quiet).expect("measured");
+    let errors: Vec<_> = measured.rungs().map(|(tolerance, rung)| (tolerance, rung.largest_error())).collect();
+    assert_eq!(errors.len(), 7, "{name}: 1e-2 … 1e-8");
+    for (tolerance, error) in &errors {
+        let got = error / tolerance;
+        assert!((LEAST..=MOST).contains(&got), "{name} at {tolerance:e}: {got:.3} of what was asked for");
+    }
+    assert!(errors.windows(2).all(|pair| pair[1].1 <= pair[0].1), "{name}: a tighter tolerance is worse: {errors:?}");
+}
+
+#[test]
+fn of_the_smooth_scenes() {
+    for name in ["circle", "length_penalty", "incompressible", "membrane_penalty", "figure_eight"] {
+        check(name);
+    }
+}
+
+#[test]
+fn of_adhesion_and_blend() {
+    check("adhesion");
+    check("blend");
+}
+
+#[test]
+fn of_three_fold() {
+    check("three_fold");
+}
+
+#[test]
+fn of_three_fold_sharp() {
+    check("three_fold_sharp");
+}
+
+#[test]
+fn every_shipped_scene_is_among_them() {
+    let known = "circle length_penalty incompressible membrane_penalty figure_eight adhesion blend three_fold three_fold_sharp";
+    for (name, _) in Scene::shipped() {
+        assert!(known.split(' ').any(|one| one == *name), "{name} has no test here");
+    }
+}
