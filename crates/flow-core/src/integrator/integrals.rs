@@ -18,6 +18,8 @@ const MOST_SWING: f64 = 6.9;
 /// Growth of the steps between the points above which the rates are taken as functions of the logarithm of time: from rough
 /// data a flow settles by powers of the time since then.
 const GROWING: f64 = 1.5;
+/// Least power of the time by which they do so.
+const POWER: f64 = 0.25;
 /// Nodes and weights of the three-point Gauss rule on [0, 1], exact for the polynomials used.
 const GAUSS: [(f64, f64); 3] =
     [(0.112_701_665_379_258_31, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
@@ -28,9 +30,9 @@ pub struct Integrals {
     times: [f64; POINTS],
     rates: [[f64; INTEGRALS]; POINTS],
     filled: usize,
-    /// Time at the start, and the first step from there.
+    /// Time at the start, and the time in which the positive rate falls by much from there: none of its logarithm is finer.
     start: f64,
-    first_step: f64,
+    scale: f64,
     /// Values at the last and at the time before.
     values: [[f64; INTEGRALS]; 2],
 }
@@ -39,14 +41,14 @@ impl Integrals {
     /// Integrals with the values `values` at `time`, where the rates are `rates`.
     #[must_use]
     pub fn new(time: f64, values: [f64; INTEGRALS], rates: [f64; INTEGRALS]) -> Self {
-        Self { times: [time; POINTS], rates: [rates; POINTS], filled: 1, start: time, first_step: 0.0, values: [values; 2] }
+        Self { times: [time; POINTS], rates: [rates; POINTS], filled: 1, start: time, scale: 0.0, values: [values; 2] }
     }
 
     /// Whether the numbers belong together.
     #[must_use]
     pub(super) fn is_sound(&self) -> bool {
         let rates = self.rates.iter().chain(&self.values).flatten();
-        (1..=POINTS).contains(&self.filled) && rates.chain(&self.times).chain([&self.start, &self.first_step]).all(|value| value.is_finite())
+        (1..=POINTS).contains(&self.filled) && rates.chain(&self.times).chain([&self.start, &self.scale]).all(|value| value.is_finite())
     }
 
     /// The last time.
@@ -68,7 +70,9 @@ impl Integrals {
         self.times[0] = time;
         self.rates[0] = rates;
         if self.filled == 1 {
-            self.first_step = time - self.start;
+            let fall = (self.rates[1][POSITIVE] / rates[POSITIVE]).ln();
+            let step = time - self.start;
+            self.scale = if fall > 0.0 { step * (POWER / fall).max(1.0) } else { step };
         }
         self.filled = (self.filled + 1).min(POINTS);
         self.values[1] = self.values[0];
@@ -99,7 +103,7 @@ impl Integrals {
         let rates = &self.rates[..self.filled];
         let times = &self.times[..self.filled];
         let grow = times[0] - start > GROWING * (times[self.filled - 2] - times[self.filled - 1]);
-        let scale = |time: f64| if grow { (time - self.start + self.first_step).ln() } else { time };
+        let scale = |time: f64| if grow { (time - self.start + self.scale).ln() } else { time };
         let mut scaled = self.times;
         scaled.iter_mut().for_each(|time| *time = scale(*time));
         // A rate that falls by decades within a few steps is a polynomial in its logarithm only.

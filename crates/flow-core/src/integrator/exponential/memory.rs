@@ -11,7 +11,7 @@ use crate::integrator::newton::Factorisation;
 use crate::integrator::Problem;
 
 /// Local errors may be this multiple of a tolerance of 1e-5, and a little less of a tighter one, as in the BDF.
-const LOCAL_SHARE: f64 = 2.5;
+const LOCAL_SHARE: f64 = 2.7;
 /// Steps that the stiffness of the rest limits before an implicit method takes over.
 const ENOUGH: u32 = 8;
 
