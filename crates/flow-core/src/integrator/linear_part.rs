@@ -3,6 +3,8 @@
 use multiversion::multiversion;
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::vectors::add_scaled;
+
 /// Λ in its eigenbasis: real eigenvalues, and a basis of each mode's block where several fields are coupled.
 ///
 /// A vector holds the spectra of the fields one after the other, real and imaginary parts in turn; what comes after them stands alone.
@@ -11,6 +13,8 @@ pub struct LinearPart {
     /// Eigenvalue of each entry of a vector in the eigenbasis.
     rates: Vec<f64>,
     bases: Option<Bases>,
+    /// What the last entry drives: of its eigenvector, the other entries in the eigenbasis of the blocks.
+    driven: Option<Vec<f64>>,
 }
 
 /// Matrices of `fields` × `fields` for each mode: row by row, each of their elements at all modes in turn, twice for the real and
@@ -22,6 +26,9 @@ struct Bases {
     from: Vec<f64>,
 }
 
+/// Part of the last eigenvalue by which it must differ from another one.
+const LEAST_GAP: f64 = 1e-3;
+
 impl LinearPart {
     /// Most fields that are coupled.
     pub const MOST_FIELDS: usize = 16;
@@ -29,14 +36,31 @@ impl LinearPart {
     /// Of a vector that is in its eigenbasis already.
     #[must_use]
     pub fn diagonal(rates: Vec<f64>) -> Self {
-        Self { rates, bases: None }
+        Self { rates, bases: None, driven: None }
     }
 
     /// Of `fields` complex fields, whose modes go to the eigenbasis by the matrices `to`, and back by `from`: row by row, each of
     /// their elements at all modes in turn, twice for the real and the imaginary part.
     #[must_use]
     pub fn blocks(rates: Vec<f64>, fields: usize, to: Vec<f64>, from: Vec<f64>) -> Self {
-        Self { rates, bases: Some(Bases { fields, to, from }) }
+        Self { rates, bases: Some(Bases { fields, to, from }), driven: None }
+    }
+
+    /// The same with a last entry that drives the others and itself at the rates `column`: Λ has that last column as well.
+    #[must_use]
+    pub fn driven_by_last(mut self, mut column: Vec<f64>) -> Self {
+        self.to_eigenbasis(&mut column);
+        let Some(own) = column.pop() else { return self };
+        for (component, rate) in column.iter_mut().zip(&self.rates) {
+            let gap = own - rate;
+            // Where two eigenvalues meet there is no such basis; what is left out is part of the rest.
+            *component = if gap.abs() > LEAST_GAP * own.abs() { *component / gap } else { 0.0 };
+        }
+        if let Some(rate) = self.rates.last_mut() {
+            *rate = own;
+        }
+        self.driven = Some(column);
+        self
     }
 
     /// Eigenvalues, by entry.
@@ -50,12 +74,20 @@ impl LinearPart {
         if let Some(bases) = &self.bases {
             bases.multiply(&bases.to, v);
         }
+        self.add_driven(-1.0, v);
     }
 
     /// Takes `v` back.
     pub fn from_eigenbasis(&self, v: &mut [f64]) {
+        self.add_driven(1.0, v);
         if let Some(bases) = &self.bases {
             bases.multiply(&bases.from, v);
+        }
+    }
+
+    fn add_driven(&self, sign: f64, v: &mut [f64]) {
+        if let (Some(driven), Some((last, others))) = (&self.driven, v.split_last_mut()) {
+            add_scaled(others, sign * *last, driven);
         }
     }
 
@@ -67,7 +99,8 @@ impl LinearPart {
             let entries = size.saturating_sub(1) * bases.fields;
             [&bases.to, &bases.from].into_iter().all(|matrices| matrices.len() == entries && finite(matrices))
         };
-        self.rates.len() == size && finite(&self.rates) && self.bases.as_ref().is_none_or(sound)
+        let driven = self.driven.as_ref().is_none_or(|driven| driven.len() + 1 == size && finite(driven));
+        self.rates.len() == size && finite(&self.rates) && driven && self.bases.as_ref().is_none_or(sound)
     }
 }
 
@@ -126,5 +159,18 @@ mod tests {
         assert_eq!(w[24], v[24]);
         part.from_eigenbasis(&mut w);
         assert_eq!(w, v);
+    }
+
+    #[test]
+    fn the_last_entry_drives_the_others() {
+        // Λ = (−1, 0, 4; 0, −2, 6; 0, 0, −5).
+        let part = LinearPart::diagonal(vec![-1.0, -2.0, 0.0]).driven_by_last(vec![4.0, 6.0, -5.0]);
+        assert_eq!(part.rates(), [-1.0, -2.0, -5.0]);
+        let mut v = vec![0.5, 0.25, 1.0];
+        let exact = [-0.5 + 4.0, -0.5 + 6.0, -5.0];
+        part.to_eigenbasis(&mut v);
+        v.iter_mut().zip(part.rates()).for_each(|(v, rate)| *v *= rate);
+        part.from_eigenbasis(&mut v);
+        assert_eq!(v, exact);
     }
 }

@@ -15,7 +15,11 @@ const LEFT_OUT_OF_CROWDS: f64 = 0.1;
 
 /// Part of the states of `scene` that may be left unresolved, as `resolution::unresolved` measures it.
 pub fn unresolved_bound(scene: &Scene) -> f64 {
-    let most = if scene.energy.agents.is_some() { MOST_LEFT_OUT_OF_FRONTS } else { MOST_LEFT_OUT };
-    let part = (LEFT_OUT * scene.accuracy.tolerance).min(most);
-    (part * if scene.flow.follows_solution() { LEFT_OUT_OF_CROWDS } else { 1.0 }).max(LEAST_LEFT_OUT)
+    let part = LEFT_OUT * scene.accuracy.tolerance;
+    let part = match (scene.flow.follows_solution(), scene.energy.agents.is_some()) {
+        (true, _) => part.min(MOST_LEFT_OUT) * LEFT_OUT_OF_CROWDS,
+        (false, true) => part.min(MOST_LEFT_OUT_OF_FRONTS),
+        (false, false) => part.min(MOST_LEFT_OUT),
+    };
+    part.max(LEAST_LEFT_OUT)
 }

@@ -6,6 +6,8 @@ use crate::flow::{GradientFlow, mobility_symbol};
 use crate::geometry::vectors::mean;
 use crate::integrator::LinearPart;
 
+/// Rate of the length over the slowest of the other rates from which on it is stiff.
+const STIFF: f64 = 100.0;
 const MOST_FIELDS: usize = LinearPart::MOST_FIELDS;
 
 /// Whether the derivatives of `flow` are diagonal in Fourier space.
@@ -14,7 +16,8 @@ pub fn exists(flow: &GradientFlow) -> bool {
 }
 
 /// −D S for each mode, at the linearisation of `flow`: D the symbols of the mobilities, S the means of the second derivatives, with
-/// the tension. Similar to the symmetric −D^{½}SD^{½}, whose eigenbasis serves. The length has no linear part.
+/// the tension. Similar to the symmetric −D^{½}SD^{½}, whose eigenbasis serves. A length under a stiff penalty drives all by its
+/// own column of −𝓚 Hess `𝓕_h`; a soft one is left to the rest.
 pub fn of(flow: &mut GradientFlow) -> Option<LinearPart> {
     let (fields, length) = (flow.layout().fields(), flow.frozen().length());
     let laplacian = flow.grid_and_derivative().1.minus_laplacian().to_vec();
@@ -61,6 +64,18 @@ pub fn of(flow: &mut GradientFlow) -> Option<LinearPart> {
         }
     }
     let size = rates.len();
+    let slow = rates[..size - 1].iter().map(|rate| rate.abs()).filter(|rate| *rate > 0.0).fold(f64::INFINITY, f64::min);
     let part = if fields == 1 { LinearPart::diagonal(rates) } else { LinearPart::blocks(rates, fields, to, from) };
+    let column = by_length(flow, size);
+    let is_stiff = -column[size - 1] > STIFF * slow;
+    let part = if is_stiff { part.driven_by_last(column) } else { part };
     part.fits(size).then_some(part)
+}
+
+/// The column of the length in the implicit operator.
+fn by_length(flow: &mut GradientFlow, size: usize) -> Vec<f64> {
+    let (mut unit, mut column) = (vec![0.0; size], vec![0.0; size]);
+    unit[size - 1] = 1.0;
+    flow.implicit_product(&unit, &mut column);
+    column
 }
