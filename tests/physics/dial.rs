@@ -12,13 +12,17 @@ const MOST: f64 = 10.0;
 /// tighter than the tightest on as many nodes as that needs.
 fn check(name: &str) {
     let measured = tradeoff(&shipped(name, &[]), &Ladder::default(), &mut Quiet).expect("measured");
-    let errors: Vec<_> = measured.rungs().map(|(tolerance, rung)| (tolerance, rung.largest_error())).collect();
+    let errors: Vec<_> =
+        measured.rungs().map(|(tolerance, rung)| (tolerance, rung.largest_error())).collect();
     assert_eq!(errors.len(), 7, "{name}: 1e-2 … 1e-8");
     for (tolerance, error) in &errors {
         let got = error / tolerance;
         assert!((LEAST..=MOST).contains(&got), "{name} at {tolerance:e}: {got:.3} of what was asked for");
     }
-    assert!(errors.windows(2).all(|pair| pair[1].1 <= pair[0].1), "{name}: a tighter tolerance is worse: {errors:?}");
+    assert!(
+        errors.windows(2).all(|pair| pair[1].1 <= pair[0].1),
+        "{name}: a tighter tolerance is worse: {errors:?}"
+    );
 }
 
 #[test]

@@ -113,7 +113,7 @@ impl LadderObserver for Impatient {
 
 #[test]
 fn an_interrupted_ladder_keeps_the_rungs_that_are_complete() {
-    let scene = shipped("circle", &[("accuracy.tolerance", "1e-4")]);
+    let scene = shipped("circle", &[("accuracy.tolerance", "1e-4"), ("accuracy.nodes", "64")]);
     let ladder = Ladder::new(&[1e-2, 1e-3, 1e-4], None).unwrap();
     let mut observer = Impatient { last: 4, ..Impatient::default() };
     let measured = tradeoff(&scene, &ladder, &mut observer).unwrap();
@@ -138,10 +138,13 @@ fn an_interrupted_ladder_keeps_the_rungs_that_are_complete() {
 
 #[test]
 fn what_fails_is_named() {
-    let short = shipped("circle", &[("time.max_steps", "20")]);
+    let short = shipped("circle", &[("time.max_steps", "10"), ("accuracy.nodes", "64")]);
     let error = tradeoff(&short, &Ladder::new(&[1e-3], None).unwrap(), &mut Quiet);
     assert!(matches!(error, Err(TradeoffError::Scout { .. })), "{error:?}");
-    let short = shipped("circle", &[("time.max_steps", "20"), ("accuracy.tolerance", "1e-3")]);
+    let short = shipped(
+        "circle",
+        &[("time.max_steps", "10"), ("accuracy.nodes", "64"), ("accuracy.tolerance", "1e-3")],
+    );
     let error = tradeoff(&short, &Ladder::new(&[1e-7], None).unwrap(), &mut Quiet);
     assert!(
         matches!(error, Err(TradeoffError::Reference { source: RunError::Failed { .. }, .. })),

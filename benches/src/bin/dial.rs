@@ -10,9 +10,9 @@ use flow_core::run::{Quiet, Scene};
 fn main() -> ExitCode {
     let mut table = String::new();
     for (name, text) in Scene::shipped() {
-        let measured = Scene::parse(text, name)
-            .map_err(|error| error.to_string())
-            .and_then(|scene| tradeoff(&scene, &Ladder::default(), &mut Quiet).map_err(|error| error.to_string()));
+        let measured = Scene::parse(text, name).map_err(|error| error.to_string()).and_then(|scene| {
+            tradeoff(&scene, &Ladder::default(), &mut Quiet).map_err(|error| error.to_string())
+        });
         match measured {
             Ok(measured) => {
                 if table.is_empty() {

@@ -72,8 +72,8 @@ impl Problem for Shared {
         self.0.borrow_mut().finished_rate(y, rate);
     }
 
-    fn linear_part(&mut self, y: &[f64]) -> Option<LinearPart> {
-        self.0.borrow_mut().linear_part(y)
+    fn linear_part(&mut self, y: &[f64], part: &mut LinearPart) -> bool {
+        self.0.borrow_mut().linear_part(y, part)
     }
 
     fn accepted(&mut self, time: f64, integrals: [f64; INTEGRALS]) {

@@ -57,7 +57,7 @@ fn the_table_goes_to_stdout_and_the_picture_beside_the_scene() {
     let (table, talk) = (stdout(&output), String::from_utf8_lossy(&output.stderr).into_owned());
     let first: Vec<&str> = table.lines().map(|line| line.split_whitespace().next().unwrap()).collect();
     assert_eq!(first, ["asked", "1e-2", "1e-3", "1e-5", "cheapest"]);
-    assert!(table.contains("cheapest for 1e-4: accuracy.tolerance = 1e-5 with 64 nodes"), "{table}");
+    assert!(table.contains("cheapest for 1e-4: accuracy.tolerance = 1e-5 with 32 nodes"), "{table}");
     assert!(talk.contains("run 3 of 3, at tolerance 1e-5") && talk.contains("errors in time only"), "{talk}");
     assert_eq!(folder.files(), ["circle_tradeoff.png"]);
     let (code, error) = refused(&folder.tradeoff(&["circle"]));
@@ -96,7 +96,10 @@ fn a_bad_list_of_tolerances_says_why() {
         assert!(code == 2 && error.contains(words), "{code}: {error}");
     }
     for (arguments, words) in [
-        (&["--reference-nodes", "32"][..], "the reference has 32 nodes, but the tightest run 64"),
+        (
+            &["--set", "accuracy.nodes=64", "--reference-nodes", "32"][..],
+            "the reference has 32 nodes, but the tightest run 64",
+        ),
         (&["--error=-1"], "must be positive"),
         (&["-o", "figure.pdf"], "ends in .png or .svg"),
     ] {

@@ -51,7 +51,7 @@ fn three_fold_holds_what_it_says() {
     assert_eq!(scene.energy.length, Some(Length::Penalty { penalty: 3.0, target: LengthTarget::Ratio(1.8) }));
     assert_eq!(scene.energy.bending, None);
     assert_eq!((scene.time.end, scene.time.stop_at_equilibrium), (1000.0, true));
-    assert_eq!((scene.accuracy.tolerance, scene.accuracy.nodes), (1e-5, Nodes::Count(512)));
+    assert_eq!((scene.accuracy.tolerance, scene.accuracy.nodes), (1e-5, Nodes::Auto));
     assert_eq!(scene.output.frames, Frames::Spaced { frames: 200, spacing: Spacing::Log });
 }
 

@@ -8,10 +8,16 @@ use flow_core::run::{
 
 mod synthetic;
 
-/// A shipped scene up to `end`.
+/// A shipped scene up to `end`, on 256 nodes, with implicit steps.
 fn shipped(name: &str, end: &str) -> Scene {
     let (_, text) = Scene::shipped().iter().find(|(shipped, _)| *shipped == name).expect("shipped");
-    let changes = [("time.end", end), ("output.frames", "3")].map(|(key, value)| (key.into(), value.into()));
+    let changes = [
+        ("time.end", end),
+        ("output.frames", "3"),
+        ("accuracy.nodes", "256"),
+        ("accuracy.linear_solver", "fourier"),
+    ];
+    let changes = changes.map(|(key, value)| (key.into(), value.into()));
     Scene::parse_with(text, name, &changes).expect("valid")
 }
 
@@ -66,6 +72,25 @@ fn what_a_scene_does_costs_and_what_it_does_not_do_costs_nothing() {
     };
     // All pairs of 256 nodes against a square at each of them.
     assert!(term("adhesion") > 10.0 * term("bending"), "{:?}", seconds.evaluations);
+}
+
+#[test]
+fn exponential_steps_solve_no_systems() {
+    let (_, text) = Scene::shipped().iter().find(|(name, _)| *name == "length_penalty").expect("shipped");
+    let record =
+        run(&Scene::parse(text, "length_penalty").expect("valid"), &mut Quiet).expect("an initial state");
+    for (name, seconds) in record.seconds.by_activity() {
+        match name {
+            "factorisations" | "jacobian_products" | "solves" | "krylov" => {
+                assert_eq!(seconds, 0.0, "{name}")
+            }
+            "checks" | "right_hand_sides" | "step_control" | "remaps" => assert!(seconds > 0.0, "{name}"),
+            _ => {}
+        }
+    }
+    let Counters { steps, right_hand_sides, krylov_iterations, .. } = record.counters;
+    assert_eq!(krylov_iterations, 0);
+    assert!(right_hand_sides <= 3 * steps, "two for each step: {right_hand_sides} for {steps}");
 }
 
 #[test]

@@ -41,14 +41,22 @@ impl Integrals {
     /// Integrals with the values `values` at `time`, where the rates are `rates`.
     #[must_use]
     pub fn new(time: f64, values: [f64; INTEGRALS], rates: [f64; INTEGRALS]) -> Self {
-        Self { times: [time; POINTS], rates: [rates; POINTS], filled: 1, start: time, scale: 0.0, values: [values; 2] }
+        Self {
+            times: [time; POINTS],
+            rates: [rates; POINTS],
+            filled: 1,
+            start: time,
+            scale: 0.0,
+            values: [values; 2],
+        }
     }
 
     /// Whether the numbers belong together.
     #[must_use]
     pub(super) fn is_sound(&self) -> bool {
         let rates = self.rates.iter().chain(&self.values).flatten();
-        (1..=POINTS).contains(&self.filled) && rates.chain(&self.times).chain([&self.start, &self.scale]).all(|value| value.is_finite())
+        (1..=POINTS).contains(&self.filled)
+            && rates.chain(&self.times).chain([&self.start, &self.scale]).all(|value| value.is_finite())
     }
 
     /// The last time.
@@ -158,7 +166,11 @@ mod tests {
         let rate = |time: f64| (time + 3e-8).powf(-0.6);
         let end = times.last().unwrap() + 3e-8;
         let exact = (end.powf(0.4) - 3e-8_f64.powf(0.4)) / 0.4;
-        assert!((integral(&times, rate) / exact - 1.0).abs() < 1e-5, "{}", integral(&times, rate) / exact - 1.0);
+        assert!(
+            (integral(&times, rate) / exact - 1.0).abs() < 1e-5,
+            "{}",
+            integral(&times, rate) / exact - 1.0
+        );
     }
 
     #[test]

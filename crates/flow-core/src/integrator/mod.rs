@@ -65,9 +65,9 @@ pub trait Problem {
     fn finished_rate(&mut self, y: &[f64], rate: &mut [f64]) {
         self.rate(y, rate);
     }
-    /// A part of J at `y` whose exponential is at hand, if there is one; takes the linearisation to `y`.
-    fn linear_part(&mut self, _y: &[f64]) -> Option<LinearPart> {
-        None
+    /// A part of J at `y` whose exponential is at hand, into `part`; takes the linearisation to `y`. False if there is none.
+    fn linear_part(&mut self, _y: &[f64], _part: &mut LinearPart) -> bool {
+        false
     }
     /// Tells that the state finished last was accepted, with the integrals at it.
     fn accepted(&mut self, time: f64, integrals: [f64; INTEGRALS]);

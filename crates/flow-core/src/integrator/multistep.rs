@@ -4,7 +4,7 @@ use super::bdf::Bdf;
 use super::exponential::{Exponential, ExponentialMemory};
 use super::memory::Memory;
 use super::newton::Factorisation;
-use super::{Counters, ErrorNorm, INTEGRALS, Integrals, Problem, Rejection, Stepper};
+use super::{Counters, ErrorNorm, INTEGRALS, Integrals, LinearPart, Problem, Rejection, Stepper};
 
 /// Either of the two multistep methods. Both hold past states, so that the change from one to the other costs nothing.
 #[derive(Clone, Debug)]
@@ -29,10 +29,11 @@ impl Multistep {
         tolerance: f64,
         counters: &mut Counters,
     ) -> Self {
-        let Some(part) = problem.linear_part(y) else {
+        let mut part = LinearPart::default();
+        if !problem.linear_part(y, &mut part) {
             let bdf = Bdf::starting(problem, y, integrals, tolerance, counters);
             return Self { method: Method::Implicit(Box::new(bdf)), tolerance };
-        };
+        }
         let mut norm = ErrorNorm::new(problem);
         norm.rescale(problem, y);
         let mut rate = vec![0.0; y.len()];

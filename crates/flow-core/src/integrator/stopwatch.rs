@@ -222,8 +222,8 @@ impl<P: Problem> Problem for Clocked<'_, P> {
         self.problem.finished_rate(y, rate);
     }
 
-    fn linear_part(&mut self, y: &[f64]) -> Option<LinearPart> {
-        self.during(Activity::Linearisation, Activity::StepControl, |problem| problem.linear_part(y))
+    fn linear_part(&mut self, y: &[f64], part: &mut LinearPart) -> bool {
+        self.during(Activity::Linearisation, Activity::StepControl, |problem| problem.linear_part(y, part))
     }
 
     fn accepted(&mut self, time: f64, integrals: [f64; INTEGRALS]) {

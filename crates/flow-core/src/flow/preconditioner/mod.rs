@@ -17,9 +17,9 @@ use crate::operators::FactorisationError;
 use banded::Banded;
 use dense::Dense;
 use fourier::FourierSymbol;
+pub use fourier::mobility_symbol;
 use length_coupling::LengthCoupling;
 use metric_coupling::MetricCoupling;
-pub use fourier::mobility_symbol;
 pub use residual_weights::ResidualWeights;
 
 /// How the linear systems of the implicit steps are preconditioned.

@@ -11,7 +11,18 @@ const LEAST_GROWTH: f64 = 1.2;
 pub(super) const MOST_GROWTH: f64 = 2.5;
 const FIRST_GROWTH: f64 = 1e4;
 /// Contraction of the corrector above which what it leaves out, the stiffness of N, limits the steps.
-const STIFF: f64 = 0.4;
+pub(super) const STIFF: f64 = 0.4;
+/// Steps do not grow beyond this contraction: at one, rounding would.
+const MOST_CONTRACTION: f64 = 0.7;
+
+/// Steps of the scale on an octave.
+const SCALE: f64 = 16.0;
+
+/// The next factor below on a geometric scale. Estimates of errors are differences, whose rounding would go on to all
+/// steps; so it goes on only where it tips the scale.
+fn on_scale(factor: f64) -> f64 {
+    ((SCALE * factor.log2() + 1e-6).floor() / SCALE).exp2()
+}
 
 impl Exponential {
     /// Ratio of the next step size that keeps an error of order `order` at the tolerance.
@@ -23,23 +34,27 @@ impl Exponential {
     pub(super) fn fail(&mut self, factor: f64) {
         self.failures += 1;
         self.limited += 1;
-        self.step *= factor;
+        self.step *= on_scale(factor);
         if self.failures > 2 && self.order > 1 {
             self.order -= 1;
             self.steps_at_order = 0;
         }
     }
 
-    /// Whether a second correction would change the candidate by much of what the first one did.
-    pub(super) fn is_limited(&mut self) -> bool {
+    /// What a second correction would change of the candidate, over what the first one did.
+    pub(super) fn contraction(&mut self) -> f64 {
         let Self { missed, rests, predicted_rest, .. } = self;
-        missed.iter_mut().zip(&rests[0]).zip(&*predicted_rest).for_each(|((missed, now), then)| *missed = now - then);
+        missed
+            .iter_mut()
+            .zip(&rests[0])
+            .zip(&*predicted_rest)
+            .for_each(|((missed, now), then)| *missed = now - then);
         let mut constant = [0.0; super::MOST_MOMENTS];
         constant[0] = 1.0;
         self.integrate(&constant, 0);
         let again = self.norm.norm(&self.scratch);
         self.scratch.iter_mut().zip(&self.candidate).zip(&self.predicted).for_each(|((d, y), p)| *d = y - p);
-        again > STIFF * self.norm.norm(&self.scratch)
+        again / self.norm.norm(&self.scratch).max(f64::MIN_POSITIVE)
     }
 
     /// Estimate of the error at order `order`, for a power of the step size; none if too few values of N are known.
@@ -73,7 +88,7 @@ impl Exponential {
     }
 
     /// Order and size of the step after an accepted candidate.
-    pub(super) fn plan(&mut self) {
+    pub(super) fn plan(&mut self, contraction: f64) {
         let order = self.order;
         let mut best = (order, 0.0);
         for (change, (error, bias)) in self.errors.into_iter().zip(BIAS).enumerate() {
@@ -84,7 +99,7 @@ impl Exponential {
             }
         }
         let most = if self.accepted == 0 { FIRST_GROWTH } else { MOST_GROWTH };
-        let mut growth = best.1.min(most);
+        let mut growth = best.1.min(most).min(MOST_CONTRACTION / contraction);
         if self.failures > 0 {
             growth = growth.min(1.0);
         }
@@ -96,6 +111,6 @@ impl Exponential {
             self.steps_at_order = 0;
         }
         self.order = best.0;
-        self.step *= growth.max(0.5);
+        self.step *= on_scale(growth.max(0.5));
     }
 }

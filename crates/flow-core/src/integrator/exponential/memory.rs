@@ -3,12 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Exponential, HIGHEST_ORDER, Moments, OLDEST_PART};
+use crate::integrator::Problem;
 use crate::integrator::error_norm::ErrorNorm;
 use crate::integrator::history::History;
 use crate::integrator::linear_part::LinearPart;
 use crate::integrator::memory::Memory;
 use crate::integrator::newton::Factorisation;
-use crate::integrator::Problem;
 
 /// Local errors may be this multiple of a tolerance of 1e-5, and a little less of a tighter one, as in the BDF.
 const LOCAL_SHARE: f64 = 2.7;
@@ -31,9 +31,10 @@ impl ExponentialMemory {
         Self { rates: vec![rate], part, part_age: 0, limited: 0 }
     }
 
-    /// The same with Λ taken anew from `problem` at `state`.
-    pub fn renewed(self, problem: &mut dyn Problem, state: &[f64]) -> Option<Self> {
-        Some(Self { part: problem.linear_part(state)?, part_age: 0, ..self })
+    /// Takes Λ anew from `problem` at `state`; false if it has none.
+    pub fn renew(&mut self, problem: &mut dyn Problem, state: &[f64]) -> bool {
+        self.part_age = 0;
+        problem.linear_part(state, &mut self.part)
     }
 
     /// Whether it belongs to `points` states of `size` entries.
@@ -57,6 +58,7 @@ impl Exponential {
             integrals: memory.integrals,
             norm: ErrorNorm::new(problem),
             tolerance: LOCAL_SHARE * tolerance * (tolerance / 1e-5).min(1.0).powf(0.05),
+            next_part: own.part.clone(),
             part: own.part,
             part_age: own.part_age.min(OLDEST_PART),
             moments: Moments::new(size),

@@ -3,7 +3,7 @@
 //! With J ≈ Λ + rest, Λ diagonal in its eigenbasis, dy/dt = Λy + N(y). The solution of this with a polynomial in place of N is
 //! exact in Λ:  y(t + h) = e^{hΛ}y + h Σᵢ mᵢ(hΛ) cᵢ,  P(θ) = Σ cᵢθⁱ. The predictor's polynomial goes through the last k values
 //! of N, the corrector's through these and the value at the prediction; what they differ by without the oldest value is the
-//! error. There are no linear systems: it serves while N is not stiff. See `THEORY.md`, eqs. (I9)–(I11); Hochbruck & Ostermann,
+//! error. There are no linear systems: it serves while N is not stiff. See `THEORY.md`, eqs. (I10) to (I12); Hochbruck & Ostermann,
 //! BIT 51 (2011) 889; order and step size as Shampine & Gordon, Computer Solution of Ordinary Differential Equations (1975).
 
 mod control;
@@ -38,6 +38,8 @@ pub struct Exponential {
     norm: ErrorNorm,
     tolerance: f64,
     part: LinearPart,
+    /// Storage for the next one.
+    next_part: LinearPart,
     part_age: usize,
     moments: Moments,
     /// N = f − Λy at the states in the eigenbasis, newest first; the newest states there.
@@ -74,20 +76,27 @@ impl Exponential {
         if self.part_age < OLDEST_PART {
             return;
         }
-        if let Some(part) = problem.linear_part(self.states.state(0)) {
-            counters.right_hand_sides += 1; // the linearisation takes as much
-            counters.factorisations += 1;
-            self.part = part;
-            self.moments.forget();
-            self.decompose();
+        counters.right_hand_sides += 1; // the linearisation takes as much
+        counters.factorisations += 1;
+        std::mem::swap(&mut self.part, &mut self.next_part);
+        if !problem.linear_part(self.states.state(0), &mut self.part) {
+            std::mem::swap(&mut self.part, &mut self.next_part); // that of another state serves as well
         }
+        self.moments.forget();
+        self.decompose();
         self.part_age = 0;
     }
 
     /// The states and the rates in the eigenbasis.
     fn decompose(&mut self) {
         for back in 0..self.states.len() {
-            decompose(&self.part, self.states.state(back), self.rates.state(back), &mut self.rests[back], &mut self.scratch);
+            decompose(
+                &self.part,
+                self.states.state(back),
+                self.rates.state(back),
+                &mut self.rests[back],
+                &mut self.scratch,
+            );
             if back < self.bases.len() {
                 self.bases[back].copy_from_slice(&self.scratch);
             }
@@ -118,7 +127,12 @@ impl Exponential {
     fn integrate(&mut self, polynomial: &Coefficients, degree: usize) {
         self.scratch.fill(0.0);
         for (i, coefficient) in polynomial[..=degree].iter().enumerate() {
-            add_scaled_product(&mut self.scratch, self.step * coefficient, self.moments.values(i), &self.missed);
+            add_scaled_product(
+                &mut self.scratch,
+                self.step * coefficient,
+                self.moments.values(i),
+                &self.missed,
+            );
         }
         self.part.from_eigenbasis(&mut self.scratch);
     }
@@ -184,7 +198,8 @@ impl Stepper for Exponential {
         decompose(part, predicted, candidate, predicted_rest, scratch);
         missed.iter_mut().zip(&*predicted_rest).for_each(|(missed, rest)| *missed = rest - *missed);
         self.integrate(&of_new_value(&self.nodes(self.order)[..self.order]), self.order);
-        for ((y, predicted), correction) in self.candidate.iter_mut().zip(&self.predicted).zip(&self.scratch) {
+        for ((y, predicted), correction) in self.candidate.iter_mut().zip(&self.predicted).zip(&self.scratch)
+        {
             *y = predicted + correction;
         }
         self.judge()
@@ -226,14 +241,15 @@ impl Stepper for Exponential {
         self.rates.push(time, &self.scratch);
         let Self { part, candidate, rates, rests, bases, .. } = self;
         decompose(part, candidate, rates.state(0), &mut rests[0], &mut bases[0]);
-        let limited = self.is_limited();
-        self.plan();
+        let contraction = self.contraction();
+        self.plan(contraction);
         self.states.push(time, &self.candidate);
         self.integrals.push(time, integral_rates);
         self.accepted += 1;
         self.part_age += 1;
         self.failures = 0;
-        self.limited = if limited { self.limited + 1 } else { self.limited.saturating_sub(1) };
+        self.limited =
+            if contraction > control::STIFF { self.limited + 1 } else { self.limited.saturating_sub(1) };
     }
 
     /// The formula of the step itself, with the values of N at its end and before.
@@ -249,13 +265,15 @@ impl Stepper for Exponential {
         let mut nodes = [0.0; MOST_MOMENTS];
         nodes.iter_mut().zip(&times[..points]).for_each(|(node, at)| *node = (at - times[1]) / size);
         let basis = lagrange_basis(&nodes[..points]);
-        let (mut moments, mut weights, mut last, mut decay) = ([0.0; MOST_MOMENTS], [0.0; MOST_MOMENTS], f64::NAN, 1.0);
+        let (mut moments, mut weights, mut last, mut decay) =
+            ([0.0; MOST_MOMENTS], [0.0; MOST_MOMENTS], f64::NAN, 1.0);
         for (entry, (y, rate)) in y.iter_mut().zip(self.part.rates()).enumerate() {
             if rate.to_bits() != last.to_bits() {
                 last = *rate;
                 decay = moments_at(size * rate, &mut moments[..points]);
                 for (weight, polynomial) in weights.iter_mut().zip(&basis[..points]) {
-                    *weight = size * polynomial.iter().zip(&moments[..points]).map(|(a, m)| a * m).sum::<f64>();
+                    *weight =
+                        size * polynomial.iter().zip(&moments[..points]).map(|(a, m)| a * m).sum::<f64>();
                 }
             }
             let driven = weights[..points].iter().zip(&self.rests).map(|(weight, rest)| weight * rest[entry]);

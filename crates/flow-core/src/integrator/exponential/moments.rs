@@ -1,4 +1,4 @@
-//! Moments of the exponential, mᵢ(z) = ∫₀¹ e^{(1−θ)z} θⁱ dθ = i! φᵢ₊₁(z). See `THEORY.md`, eq. (I9).
+//! Moments of the exponential, mᵢ(z) = ∫₀¹ e^{(1−θ)z} θⁱ dθ = i! φᵢ₊₁(z). See `THEORY.md`, eq. (I10).
 
 #![allow(clippy::inline_always)] // these bodies must be compiled inside each version of the loop
 
@@ -25,7 +25,11 @@ fn moments_of(z: [f64; LANES], moments: &mut [[f64; LANES]]) -> [f64; LANES] {
     } else {
         let mut others = [[0.0; LANES]; MOST_MOMENTS];
         by_series(z.map(|z| z.clamp(-SMALL, SMALL)), moments);
-        by_recursion(z.map(|z| if z.abs() < SMALL { -SMALL } else { z }), decay, &mut others[..moments.len()]);
+        by_recursion(
+            z.map(|z| if z.abs() < SMALL { -SMALL } else { z }),
+            decay,
+            &mut others[..moments.len()],
+        );
         for (moment, other) in moments.iter_mut().zip(&others) {
             for k in 0..LANES {
                 moment[k] = if z[k].abs() < SMALL { moment[k] } else { other[k] };
@@ -154,7 +158,10 @@ mod tests {
             assert!((decay / z.exp() - 1.0).abs() < 1e-15);
             for (i, moment) in moments.iter().enumerate() {
                 let exact = reference(z, i as i32);
-                assert!((moment - exact).abs() < 1e-9 * exact.abs().max(1e-3), "m{i}({z}) = {moment} ≠ {exact}");
+                assert!(
+                    (moment - exact).abs() < 1e-9 * exact.abs().max(1e-3),
+                    "m{i}({z}) = {moment} ≠ {exact}"
+                );
             }
         }
     }

@@ -87,7 +87,11 @@ impl Adaptation {
         let family = self.families[usize::from(membrane.flow().grading().is_some())];
         let part = unresolved(layout, state, layout.nodes(), family);
         let resolved = part <= self.bound;
-        let looks = if self.grades { age >= FIRST_LOOK && age.is_power_of_two() } else { age > 0 && age.is_multiple_of(LOOKS) };
+        let looks = if self.grades {
+            age >= FIRST_LOOK && age.is_power_of_two()
+        } else {
+            age > 0 && age.is_multiple_of(LOOKS)
+        };
         if resolved && !looks {
             return Look::Serve;
         }

@@ -214,8 +214,7 @@ impl Problem for Membrane {
     fn factorise(&mut self, gamma: f64) -> bool {
         self.factorised.0.copy_from_slice(&self.linearised);
         self.factorised.1 = gamma;
-        self.flow.linearisation_fault().is_none()
-            && self.solver.factorise(&mut self.flow, gamma)
+        self.flow.linearisation_fault().is_none() && self.solver.factorise(&mut self.flow, gamma)
     }
 
     fn precondition(&mut self, r: &mut [f64]) {
@@ -262,13 +261,13 @@ impl Problem for Membrane {
         self.flow.rate_at_hand(rate);
     }
 
-    fn linear_part(&mut self, y: &[f64]) -> Option<LinearPart> {
+    fn linear_part(&mut self, y: &[f64], part: &mut LinearPart) -> bool {
         if !self.may_be_exponential {
-            return None;
+            return false;
         }
         self.linearised.copy_from_slice(y);
         self.flow.spectral_linearise(y);
-        linear_part::of(&mut self.flow)
+        linear_part::set(part, &mut self.flow)
     }
 
     fn energy_rounding(&self, y: &[f64]) -> f64 {

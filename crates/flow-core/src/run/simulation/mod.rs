@@ -15,7 +15,7 @@ pub use resume::{Memory, ResumeError};
 
 use crate::energies::TermFault;
 use crate::geometry::Layout;
-use crate::integrator::{Adaptive, Multistep, Clocked, Counters, IntegrationError, StepReport, Stepper};
+use crate::integrator::{Adaptive, Clocked, Counters, IntegrationError, Multistep, StepReport, Stepper};
 use crate::run::adaptation::Adaptation;
 use crate::run::diagnostics::Diagnostics;
 use crate::run::equilibrium::Equilibrium;

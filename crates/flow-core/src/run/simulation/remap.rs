@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use super::Simulation;
 use crate::flow::Regrading;
-use crate::integrator::{Adaptive, AdaptiveOptions, Multistep, Factorisation, Finish, Problem, Stepper};
+use crate::integrator::{Adaptive, AdaptiveOptions, Factorisation, Finish, Multistep, Problem, Stepper};
 use crate::run::adaptation::{Look, Plan, Way};
 use crate::run::mesh::Mesh;
 
@@ -47,9 +47,13 @@ impl Simulation {
                 for (_, state) in &mut memory.points {
                     *state = old.resampled(state, &new);
                 }
-                if let Some(mut own) = memory.exponential.take() {
+                let own = memory.exponential.as_mut();
+                let renewed = own.is_none_or(|own| {
                     own.rates.iter_mut().for_each(|rate| *rate = old.resampled(rate, &new));
-                    memory.exponential = own.renewed(&mut membrane, &memory.points[0].1);
+                    own.renew(&mut membrane, &memory.points[0].1)
+                });
+                if !renewed {
+                    memory = memory.implicit();
                 }
             }
             Way::Regraded(grading) => {

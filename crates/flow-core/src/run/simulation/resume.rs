@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::Simulation;
 use super::clocks::Clocks;
 use crate::integrator::{
-    self, Adaptive, AdaptiveOptions, Multistep, Counters, IntegrationError, Problem, Rest, Stepper, Stopwatch,
+    self, Adaptive, AdaptiveOptions, Counters, IntegrationError, Multistep, Problem, Rest, Stepper, Stopwatch,
 };
 use crate::run::adaptation::Adaptation;
 use crate::run::equilibrium::Equilibrium;

@@ -5,7 +5,7 @@ use std::time::Instant;
 use super::clocks::Clocks;
 use super::{ENERGY_TOLERANCE_SHARE, Simulation};
 use crate::integrator::{
-    Adaptive, AdaptiveOptions, Multistep, Clocked, Counters, Finish, INTEGRALS, Integrals, Problem, Stopwatch,
+    Adaptive, AdaptiveOptions, Clocked, Counters, Finish, INTEGRALS, Integrals, Multistep, Problem, Stopwatch,
 };
 use crate::run::equilibrium::Equilibrium;
 use crate::run::frames::{Start, frame};

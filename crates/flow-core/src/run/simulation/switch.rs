@@ -3,7 +3,9 @@
 use std::time::Instant;
 
 use super::Simulation;
-use crate::integrator::{Adaptive, AdaptiveOptions, Multistep, Finish, Integrals, Problem, StepReport, Stepper};
+use crate::integrator::{
+    Adaptive, AdaptiveOptions, Finish, Integrals, Multistep, Problem, StepReport, Stepper,
+};
 use crate::run::adaptation::Adaptation;
 use crate::run::gauges::Switched;
 use crate::run::mesh::Mesh;
