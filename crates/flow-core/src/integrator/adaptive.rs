@@ -200,11 +200,12 @@ impl<S: Stepper> Adaptive<S> {
         }
     }
 
-    /// Largest useful step: to the end, or half of the way if the rest would be a sliver.
+    /// Largest useful step: to the end, or half of the way, and a hair more for the sake of rounding, if the rest would be a
+    /// sliver.
     fn remaining(&self, start: f64) -> f64 {
         let rest = self.options.end - start;
         let step = self.stepper.step_size();
-        if step < rest && 2.0 * step > rest { 0.5 * rest } else { rest }
+        if step < rest && 2.0 * step > rest { (0.5 + 1e-12) * rest } else { rest }
     }
 
     fn attempt(&mut self, problem: &mut dyn Problem) -> Result<(f64, f64), Rejection> {

@@ -12,6 +12,9 @@ pub(super) const MOST_GROWTH: f64 = 2.5;
 const FIRST_GROWTH: f64 = 1e4;
 /// Contraction of the corrector above which what it leaves out, the stiffness of N, limits the steps.
 pub(super) const STIFF: f64 = 0.4;
+/// What a step that is limited so counts, over what one that is not takes away again: at rest, where both corrections are
+/// rounding, they take turns.
+pub(super) const LIMITED: u32 = 2;
 /// Steps do not grow beyond this contraction: at one, rounding would.
 const MOST_CONTRACTION: f64 = 0.7;
 
@@ -33,7 +36,7 @@ impl Exponential {
     /// After an attempt that was thrown away.
     pub(super) fn fail(&mut self, factor: f64) {
         self.failures += 1;
-        self.limited += 1;
+        self.limited += LIMITED;
         self.step *= on_scale(factor);
         if self.failures > 2 && self.order > 1 {
             self.order -= 1;

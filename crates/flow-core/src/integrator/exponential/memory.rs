@@ -12,8 +12,8 @@ use crate::integrator::newton::Factorisation;
 
 /// Local errors may be this multiple of a tolerance of 1e-5, and a little less of a tighter one, as in the BDF.
 const LOCAL_SHARE: f64 = 2.7;
-/// Steps that the stiffness of the rest limits before an implicit method takes over.
-const ENOUGH: u32 = 8;
+/// Count of steps that the stiffness of the rest has limited, at which an implicit method takes over.
+const ENOUGH: u32 = 8 * super::control::LIMITED;
 
 /// What the exponential method knows besides past states.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
