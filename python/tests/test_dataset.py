@@ -13,7 +13,7 @@ import curveflow as cf
 def stiff() -> cf.Result:
     """A run with a requested field and diagnostics."""
     scene = cf.Scene.shipped("membrane_penalty").with_values(
-        {"output.frames": 4, "output.fields": ["normal-force"], "accuracy.tolerance": 1e-4}
+        {"output.frames": 4, "output.fields": ["normal-force"], "accuracy.tolerance": 1e-4, "accuracy.nodes": 256}
     )
     return cf.run(scene)
 

@@ -65,7 +65,8 @@ def stiff() -> cf.Result:
     """A stiff membrane on its way to the incompressible manifold, with all fields that there are."""
     scene = cf.Scene.shipped("membrane_penalty")
     fields = [name.replace("_", "-") for name in REQUESTED]
-    return cf.run(scene.with_values({"output.fields": fields, "output.frames": 4, "accuracy.tolerance": 1e-4}))
+    output = {"output.fields": fields, "output.frames": 4}
+    return cf.run(scene.with_values({**output, "accuracy.tolerance": 1e-4, "accuracy.nodes": 256}))
 
 
 def test_requested_fields_and_diagnostics_are_arrays(stiff: cf.Result):

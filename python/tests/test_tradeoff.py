@@ -27,7 +27,7 @@ except KeyboardInterrupt as stop:
 
 @pytest.fixture(scope="module")
 def measured() -> cf.Tradeoff:
-    return cf.tradeoff(cf.Scene.shipped("three_fold"), LADDER)
+    return cf.tradeoff(cf.Scene.shipped("three_fold").with_values({"accuracy.nodes": 512}), LADDER)
 
 
 def test_arrays_have_an_entry_per_run(measured: cf.Tradeoff):
