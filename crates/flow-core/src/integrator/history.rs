@@ -43,9 +43,6 @@ pub fn lagrange(time: f64, times: &[f64]) -> Weights {
 }
 
 impl History {
-    /// Most states held.
-    pub const ROOM: usize = MOST_POINTS;
-
     /// Room for a few states of `size` entries.
     #[must_use]
     pub fn new(size: usize) -> Self {

@@ -113,7 +113,9 @@ impl Integrals {
         let grow = times[0] - start > GROWING * (times[self.filled - 2] - times[self.filled - 1]);
         let scale = |time: f64| if grow { (time - self.start + self.scale).ln() } else { time };
         let mut scaled = self.times;
-        scaled.iter_mut().for_each(|time| *time = scale(*time));
+        for time in &mut scaled {
+            *time = scale(*time);
+        }
         // A rate that falls by decades within a few steps is a polynomial in its logarithm only.
         let logarithmic = rates.iter().all(|r| r[POSITIVE] > 0.0);
         for (node, weight) in GAUSS {

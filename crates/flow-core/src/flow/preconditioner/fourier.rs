@@ -21,6 +21,7 @@ pub struct FourierSymbol {
 }
 
 /// Symbols of 𝓚 by field: `Δ_s𝓑Δ_s` on the curvature, 𝓖 on the densities.
+#[must_use]
 pub fn mobility_symbol(flow: &GradientFlow, field: usize, minus_laplacian: f64, length: f64) -> f64 {
     match field {
         0 => {

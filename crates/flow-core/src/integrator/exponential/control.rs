@@ -1,6 +1,6 @@
 //! Order and size of the next step, and the watch over what limits it.
 
-use super::{Exponential, HIGHEST_ORDER};
+use super::{Exponential, HIGHEST_ORDER, MOST_POINTS};
 use crate::integrator::Rejection;
 
 /// Safety factors on the error of order k − 1, k, k + 1: a change of order must pay.
@@ -60,27 +60,18 @@ impl Exponential {
         again / self.norm.norm(&self.scratch).max(f64::MIN_POSITIVE)
     }
 
-    /// Estimate of the error at order `order`, for a power of the step size; none if too few values of N are known.
-    ///
-    /// What one value less changes is the error where Λ is stiff; where it is not, the corrector's own order is higher by one, and
-    /// what one value more changes is it. Between the two lies their geometric mean.
-    fn error(&mut self, order: usize) -> Option<f64> {
-        let known = self.states.len();
-        if order == 0 || order > HIGHEST_ORDER || order > known {
-            return None;
-        }
-        let stiff = self.difference(order);
-        Some(if order < known { (stiff * self.difference(order + 1)).sqrt() } else { stiff })
-    }
-
     /// Whether the error of the candidate is below the tolerance; what it would be at other orders.
     pub(super) fn judge(&mut self) -> Result<(), Rejection> {
         let order = self.order;
-        let error = self.error(order);
-        self.errors = [None, error, None];
-        let error = error.unwrap_or(f64::NAN);
+        self.differences = [None; MOST_POINTS + 1];
+        self.differences[order] = Some(self.difference(order));
+        self.take_difference(order + 1);
+        let error = self.error(order).unwrap_or(f64::NAN);
+        self.errors = [None, Some(error), None];
         if error <= self.tolerance {
             if self.steps_at_order >= order {
+                self.take_difference(order - 1);
+                self.take_difference(order + 2);
                 self.errors = [self.error(order - 1), Some(error), self.error(order + 1)];
             }
             return Ok(());
@@ -88,6 +79,21 @@ impl Exponential {
         let growth = if error.is_finite() { self.growth(error, order, BIAS[1]) } else { 0.0 };
         self.fail(growth.clamp(0.2, 0.9));
         Err(Rejection::Error)
+    }
+
+    fn take_difference(&mut self, points: usize) {
+        if points > 0 && points <= self.states.len() {
+            self.differences[points] = Some(self.difference(points));
+        }
+    }
+
+    /// Estimate of the error at order `order`, for a power of the step size; none if too few values of N are known.
+    ///
+    /// What one value less changes is the error where Λ is stiff; where it is not, the corrector's own order is higher by one, and
+    /// what one value more changes is it. Between the two lies their geometric mean.
+    fn error(&self, order: usize) -> Option<f64> {
+        let stiff = self.differences[order].filter(|_| order <= HIGHEST_ORDER)?;
+        Some(self.differences[order + 1].map_or(stiff, |other| (stiff * other).sqrt()))
     }
 
     /// Order and size of the step after an accepted candidate.

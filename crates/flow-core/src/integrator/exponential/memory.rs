@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::{Exponential, HIGHEST_ORDER, Moments, OLDEST_PART};
 use crate::integrator::Problem;
 use crate::integrator::error_norm::ErrorNorm;
-use crate::integrator::history::History;
+use crate::integrator::history::{History, MOST_POINTS};
 use crate::integrator::linear_part::LinearPart;
 use crate::integrator::memory::Memory;
 use crate::integrator::newton::Factorisation;
@@ -62,7 +62,7 @@ impl Exponential {
             part: own.part,
             part_age: own.part_age.min(OLDEST_PART),
             moments: Moments::new(size),
-            rests: vec![zero(); History::ROOM],
+            rests: vec![zero(); MOST_POINTS],
             bases: [zero(), zero()],
             order: memory.order.min(HIGHEST_ORDER),
             last_order: memory.last_order.min(HIGHEST_ORDER),
@@ -71,6 +71,7 @@ impl Exponential {
             accepted: memory.accepted,
             failures: memory.failures,
             limited: own.limited,
+            differences: [None; MOST_POINTS + 1],
             errors: [None; 3],
             predicted: zero(),
             candidate: zero(),

@@ -12,7 +12,7 @@ mod moments;
 mod polynomials;
 
 use super::error_norm::ErrorNorm;
-use super::history::{History, lagrange};
+use super::history::{History, MOST_POINTS, lagrange};
 use super::integrals::Integrals;
 use super::linear_part::LinearPart;
 use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
@@ -52,6 +52,8 @@ pub struct Exponential {
     accepted: u64,
     failures: u32,
     limited: u32,
+    /// What the last n values of N change instead of n − 1, where it is known.
+    differences: [Option<f64>; MOST_POINTS + 1],
     /// Estimates of the error of the candidate, and of those of an order less and more, where they are known.
     errors: [Option<f64>; 3],
     predicted: Vec<f64>,
