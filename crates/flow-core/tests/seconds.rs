@@ -82,7 +82,7 @@ fn exponential_steps_solve_no_systems() {
     for (name, seconds) in record.seconds.by_activity() {
         match name {
             "factorisations" | "jacobian_products" | "solves" | "krylov" => {
-                assert_eq!(seconds, 0.0, "{name}")
+                assert_eq!(seconds, 0.0, "{name}");
             }
             "checks" | "right_hand_sides" | "step_control" | "remaps" => assert!(seconds > 0.0, "{name}"),
             _ => {}
