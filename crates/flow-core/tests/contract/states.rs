@@ -62,6 +62,15 @@ impl Blob {
         terms.fold("1".to_owned(), |sum, term| sum + &term)
     }
 
+    /// The densities as formulas of s.
+    pub fn density_formulas(&self) -> [String; 2] {
+        [0, 1].map(|density| {
+            let waves = self.densities[density].iter().enumerate();
+            let terms = waves.map(|(k, (b, q))| format!(" + ({b:.9})*cos({}*pi*s + {q:.9})", 2 * (k + 1)));
+            terms.fold("0.5".to_owned(), |sum, term| sum + &term)
+        })
+    }
+
     /// The closed curve at `nodes` nodes with `densities` densities.
     pub fn state(&self, nodes: usize, densities: usize) -> State {
         let r = Expression::parse(&self.radius_formula(), &["phi"]).expect("a formula");
