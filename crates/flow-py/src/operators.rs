@@ -1,9 +1,10 @@
 //! The operators of the flow on arrays: one function each.
 
-use flow_core::flow::{NodalCurve, NodalError, NodalGauge, NodalRates};
+use flow_core::flow::{NodalCurve, NodalError, NodalRates};
 use flow_core::geometry::CurveGeometry;
 use flow_core::operators::DerivativeFamily;
 use flow_core::run;
+use flow_core::run::scene::Gauge;
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -55,13 +56,8 @@ pub fn flow_map<'py>(
 ) -> PyResult<(NodalOut<'py>, NodalOut<'py>, Vec<NodalOut<'py>>, NodalOut<'py>)> {
     let (kappa, g, v) = (curvature.as_slice()?, metric.as_slice()?, normal_velocity.as_slice()?);
     let (rho, family) = (slices(&density)?, family(derivative)?);
-    let gauge = match gauge {
-        "scaled-arc-length" => NodalGauge::ScaledArcLength,
-        "graded" => NodalGauge::Graded,
-        "co-moving" => NodalGauge::CoMoving,
-        _ => return Err(unknown("gauge", gauge, "scaled-arc-length, graded, co-moving")),
-    };
-    let rates = detached(py, || NodalCurve::new(kappa, g, &rho, family, gauge)?.flow_map(v))?;
+    let gauge = gauge_named(gauge)?;
+    let rates = detached(py, || NodalCurve::new(kappa, g, &rho, family, gauge.rule())?.flow_map(v))?;
     let NodalRates { curvature, metric, density, tangential_velocity } = rates;
     let density = density.into_iter().map(|rate| vector(py, rate)).collect();
     Ok((vector(py, curvature), vector(py, metric), density, vector(py, tangential_velocity)))
@@ -135,13 +131,20 @@ fn on_curve<'py>(
     apply: fn(&mut NodalCurve, &[f64]) -> Result<Vec<f64>, NodalError>,
 ) -> PyResult<NodalOut<'py>> {
     let (kappa, g, argument) = (curvature.as_slice()?, metric.as_slice()?, argument.as_slice()?);
-    let (family, gauge) = (family(derivative)?, NodalGauge::at_rest(g));
+    let (family, gauge) = (family(derivative)?, Gauge::at_rest(g).rule());
     let out = detached(py, || apply(&mut NodalCurve::new(kappa, g, &[], family, gauge)?, argument))?;
     Ok(vector(py, out))
 }
 
 fn slices<'a>(arrays: &'a [NodalIn<'_>]) -> PyResult<Vec<&'a [f64]>> {
     arrays.iter().map(|array| Ok(array.as_slice()?)).collect()
+}
+
+fn gauge_named(name: &str) -> PyResult<Gauge> {
+    let known = Gauge::ALL.iter().copied().find(|gauge| gauge.name() == name);
+    known.ok_or_else(|| {
+        unknown("gauge", name, &Gauge::ALL.iter().map(|gauge| gauge.name()).collect::<Vec<_>>().join(", "))
+    })
 }
 
 fn family(name: &str) -> PyResult<DerivativeFamily> {

@@ -1,11 +1,11 @@
 //! The gradient flow dX/dt = −`𝓚(X)∇𝓕_h` with 𝓚 = `A𝓑Aᵀ` + 𝓖. See `THEORY.md`, section 4.
 
-mod co_moving;
 mod curve_fields;
 mod density_mobility;
 mod energy_sum;
 mod excess_density;
 mod flow_map;
+mod gauge;
 mod graded_energy;
 mod gradient_flow;
 mod moving_metric_energy;
@@ -23,8 +23,9 @@ pub use density_mobility::{Carried, DensityMobility, Diffusion, Exchange, Weight
 pub use energy_sum::{EnergySum, IntrinsicGradient};
 pub use excess_density::ExcessDensity;
 pub use flow_map::FlowMap;
+pub use gauge::{CoMoving, Gauge, Graded, MetricRole, ScaledArcLength, Workspace};
 pub use gradient_flow::{EvaluationCost, GradientFlow, PartCosts, Rate};
-pub use nodal_curve::{NodalCurve, NodalError, NodalGauge, NodalRates};
+pub use nodal_curve::{NodalCurve, NodalError, NodalRates};
 pub(crate) use nodal_curve::{check, nodal_state};
 pub use normal_mobility::{
     AreaPreserving, Identity, Incompressible, IncompressibleAreaPreserving, Kept, MobilityError,

@@ -7,26 +7,16 @@ use std::sync::Arc;
 
 use super::curve_fields::CurveFields;
 use super::flow_map::FlowMap;
+use super::gauge::{Gauge, MetricRole};
 use super::normal_mobility::{Incompressible, MobilityError, NormalMobility};
 use crate::geometry::{Complex64, Grading, GradingError, Layout, PeriodicGrid, SpectralLayout};
 use crate::operators::{CurveHelmholtz, Derivative, DerivativeFamily, Helmholtz};
 
-/// Which tangential velocity goes with a normal one, for a curve given by arrays.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NodalGauge {
-    /// The nodes stay at equal distances; the metric must be uniform.
-    ScaledArcLength,
-    /// The nodes keep their fractions of the arc length, whatever these are.
-    Graded,
-    /// Every node moves along the normal; the metric is a field.
-    CoMoving,
-}
-
-impl NodalGauge {
-    /// The gauge that keeps the nodes where the nodal `metric` has them.
+impl MetricRole {
+    /// The role that a nodal `metric` has in a gauge that keeps it but for its mean.
     #[must_use]
     pub fn at_rest(metric: &[f64]) -> Self {
-        if spread(metric) <= UNIFORM { Self::ScaledArcLength } else { Self::Graded }
+        if spread(metric) <= UNIFORM { Self::Uniform } else { Self::Graded }
     }
 }
 
@@ -95,22 +85,22 @@ impl NodalCurve {
         metric: &[f64],
         density: &[&[f64]],
         family: DerivativeFamily,
-        gauge: NodalGauge,
+        gauge: Arc<dyn Gauge>,
     ) -> Result<Self, NodalError> {
         let nodes = curvature.len();
         check(nodes, curvature, metric, density)?;
         let grid = PeriodicGrid::new(nodes);
-        let grading = match gauge {
-            NodalGauge::ScaledArcLength if spread(metric) > UNIFORM => {
+        let grading = match gauge.metric() {
+            MetricRole::Uniform if spread(metric) > UNIFORM => {
                 return Err(NodalError::NotUniform { spread: spread(metric) });
             }
-            NodalGauge::ScaledArcLength => None,
-            NodalGauge::Graded | NodalGauge::CoMoving => Some(Arc::new(Grading::of_metric(metric)?)),
+            MetricRole::Uniform => None,
+            MetricRole::Graded | MetricRole::Field => Some(Arc::new(Grading::of_metric(metric)?)),
         };
         let layout = Layout::new(nodes, density.len());
-        let layout = if gauge == NodalGauge::CoMoving { layout.with_metric() } else { layout };
+        let layout = if gauge.metric() == MetricRole::Field { layout.with_metric() } else { layout };
         let derivative = Derivative::graded(family, &grid, grading);
-        let map = FlowMap::new(layout, &grid, &derivative);
+        let map = FlowMap::in_gauge(gauge, layout, &grid, &derivative);
         let at = CurveFields::new(layout, &grid, &derivative);
         let mut curve = Self { layout, grid, derivative, map, at, metric: metric.to_vec() };
         let state = spectral(&nodal_state(curvature, metric, density, layout), layout, &mut curve.grid);
@@ -246,6 +236,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     use super::*;
+    use crate::flow::{CoMoving, Graded, ScaledArcLength};
 
     /// Mode `mode` of a circle of radius 1 under V = cos: `κ_t` = (n² − 1)V, 𝓘V = n²/(n² + 1)V, H⁻¹V = V/(n² + 1).
     #[test]
@@ -254,17 +245,18 @@ mod tests {
         let (kappa, metric) = (vec![1.0; nodes], vec![TAU; nodes]);
         let wave: Vec<f64> = (0..nodes).map(|i| (mode * TAU * i as f64 / nodes as f64).cos()).collect();
         let close = |a: &[f64], factor: f64| a.iter().zip(&wave).all(|(a, b)| (a - factor * b).abs() < 1e-9);
-        for (gauge, stretch) in
-            [(NodalGauge::ScaledArcLength, 0.0), (NodalGauge::Graded, 0.0), (NodalGauge::CoMoving, TAU)]
-        {
+        let gauges: [(Arc<dyn Gauge>, f64); 3] =
+            [(Arc::new(ScaledArcLength), 0.0), (Arc::new(Graded), 0.0), (Arc::new(CoMoving), TAU)];
+        for (gauge, stretch) in gauges {
+            let role = gauge.metric();
             let family = DerivativeFamily::Fourier;
             let mut curve = NodalCurve::new(&kappa, &metric, &[&kappa], family, gauge).unwrap();
             let rates = curve.flow_map(&wave).unwrap();
-            assert!(close(&rates.curvature, mode * mode - 1.0), "{gauge:?}");
-            assert!(close(&rates.metric, stretch), "{gauge:?}");
+            assert!(close(&rates.curvature, mode * mode - 1.0), "{role:?}");
+            assert!(close(&rates.metric, stretch), "{role:?}");
             // What is carried thins out where the curve grows, wherever the nodes go.
-            assert!(close(&rates.density[0], -1.0), "{gauge:?}");
-            if gauge != NodalGauge::CoMoving {
+            assert!(close(&rates.density[0], -1.0), "{role:?}");
+            if role != MetricRole::Field {
                 assert!(close(&curve.helmholtz(&wave).unwrap(), 1.0 / (mode * mode + 1.0)));
                 assert!(close(&curve.incompressible(&wave).unwrap(), mode * mode / (mode * mode + 1.0)));
             }

@@ -198,7 +198,7 @@ fn incompressible(
     let grid = PeriodicGrid::new(layout.nodes());
     let terms = energy_terms(&base, initial, layout.nodes())?;
     let energy = EnergySum::new(terms, layout, &grid, derivative);
-    let map = FlowMap::new(layout, &grid, derivative);
+    let map = FlowMap::in_gauge(scene.flow.gauge.rule(), layout, &grid, derivative);
     let normal = Box::new(Incompressible::new(derivative, layout.nodes()));
     let densities = (0..layout.densities()).map(|_| Box::new(Carried) as _).collect();
     Ok(GradientFlow::new(map, energy, layout, normal, densities))

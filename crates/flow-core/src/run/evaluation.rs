@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::scene::{Gauge, Nodes, Scene};
 use super::setup::{self, Setup};
 use super::setup_error::SetupError;
-use crate::flow::{NodalError, NodalGauge, check, nodal_state};
+use crate::flow::{MetricRole, NodalError, check, nodal_state};
 use crate::geometry::Grading;
 
 /// Why the energy of a scene cannot be evaluated on arrays.
@@ -54,7 +54,7 @@ pub fn evaluate(
     scene.accuracy.nodes = Nodes::Count(nodes);
     let initial = Setup::new(&scene)?.initial;
     scene.flow.gauge = gauge(&scene, metric);
-    let uniform = scene.flow.gauge == Gauge::ScaledArcLength;
+    let uniform = scene.flow.gauge.metric() == MetricRole::Uniform;
     let grading =
         if uniform { None } else { Some(Arc::new(Grading::of_metric(metric).map_err(NodalError::from)?)) };
     let (mut flow, _) = setup::flow(&scene, initial, nodes, grading)?;
@@ -65,12 +65,9 @@ pub fn evaluate(
 
 /// The gauge that the scene has such a metric in: its only one, or, where it switches, the first that allows it.
 fn gauge(scene: &Scene, metric: &[f64]) -> Gauge {
-    let rest = match NodalGauge::at_rest(metric) {
-        NodalGauge::ScaledArcLength => Gauge::ScaledArcLength,
-        _ => Gauge::Graded,
-    };
+    let rest = Gauge::at_rest(metric);
     let mut gauges =
         std::iter::once(scene.flow.gauge).chain(scene.flow.switch.iter().map(|switch| switch.gauge));
-    let allowed = |gauge: &Gauge| *gauge == rest || *gauge == Gauge::CoMoving;
+    let allowed = |gauge: &Gauge| *gauge == rest || gauge.metric() == MetricRole::Field;
     gauges.find(allowed).unwrap_or(rest)
 }

@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::scene::{Gauge, Scene};
+use super::scene::Scene;
 use super::setup_error::SetupError;
+use crate::flow::MetricRole;
 use crate::geometry::Grading;
 
 /// How many nodes there are, and their grading if the program has chosen it.
@@ -35,8 +36,8 @@ impl Mesh {
                 let count = Grading::samples(self.nodes);
                 formula.values(&(0..count).map(|i| i as f64 / count as f64).collect::<Vec<_>>())
             }
-            // The metric of the co-moving gauge starts as a uniform one, if nothing else is said.
-            (None, None) if scene.flow.gauge == Gauge::CoMoving => {
+            // A metric that is a field starts as a uniform one, if nothing else is said.
+            (None, None) if scene.flow.gauge.metric() == MetricRole::Field => {
                 return Ok(Some(Arc::new(Grading::uniform(self.nodes))));
             }
             (None, None) => return Ok(None),

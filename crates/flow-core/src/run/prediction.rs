@@ -3,9 +3,10 @@
 use super::limits::frame_bytes;
 use super::observer::Quiet;
 use super::resolution::{fronts, size_above};
-use super::scene::{Gauge, Nodes, Scene};
+use super::scene::{Nodes, Scene};
 use super::setup_error::SetupError;
 use super::simulation::Simulation;
+use crate::flow::MetricRole;
 use crate::geometry::Layout;
 
 /// Prediction of a run. Steps and time are rough: within a factor of three for the shipped scenes.
@@ -61,7 +62,7 @@ pub fn predict(scene: &Scene) -> Result<Prediction, SetupError> {
 }
 
 fn most_nodes(scene: &Scene, nodes: usize, initial_length: f64) -> usize {
-    let equidistant = scene.flow.gauge == Gauge::ScaledArcLength;
+    let equidistant = scene.flow.gauge.metric() == MetricRole::Uniform;
     match scene.accuracy.nodes {
         Nodes::Auto if equidistant => nodes.max(size_above(fronts(scene, initial_length))),
         _ => nodes,

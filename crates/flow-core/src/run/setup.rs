@@ -11,9 +11,9 @@ use super::membrane::Membrane;
 use super::mesh::Mesh;
 use super::mobilities::{density_mobilities, normal_mobility};
 use super::resolution::{self, MOST_NODES, needed_nodes, unresolved};
-use super::scene::{self, Gauge, Nodes, Scene};
+use super::scene::{self, Nodes, Scene};
 use super::setup_error::SetupError;
-use crate::flow::{EnergySum, FlowMap, GradientFlow, LinearSolver};
+use crate::flow::{EnergySum, FlowMap, GradientFlow, LinearSolver, MetricRole};
 use crate::geometry::shapes::{Resampled, Shape};
 use crate::geometry::{
     Closure, Embedding, Grading, GradingError, Layout, PeriodicGrid, Placement, SpectralLayout, enclosed_area,
@@ -102,7 +102,7 @@ fn start(scene: &Scene, shape: &Shape, length: f64) -> Result<Start, SetupError>
         Nodes::Auto => FIRST_NODES,
     };
     let fronts = resolution::fronts(scene, length);
-    if scene.flow.gauge != Gauge::Graded && fronts > MOST_NODES as f64 {
+    if scene.flow.gauge.metric() != MetricRole::Graded && fronts > MOST_NODES as f64 {
         return Err(SetupError::TooManyNodes { needed: fronts, most: MOST_NODES });
     }
     let (mut nodes, family) = (nodes, family(scene, false));
@@ -150,7 +150,7 @@ fn start_on(scene: &Scene, shape: &Shape, nodes: usize) -> Result<Start, SetupEr
 /// Shape of the states of a scene on `nodes` nodes.
 fn layout(scene: &Scene, nodes: usize) -> Layout {
     let layout = Layout::new(nodes, scene.density.len());
-    if scene.flow.gauge == Gauge::CoMoving { layout.with_metric() } else { layout }
+    if scene.flow.gauge.metric() == MetricRole::Field { layout.with_metric() } else { layout }
 }
 
 /// The flow of a scene on `nodes` nodes, and what frames hold on request.
@@ -167,7 +167,7 @@ pub(super) fn flow(
     let terms = energy_terms(scene, initial, nodes)?;
     let diagnostics = Diagnostics::new(scene, initial, layout, &derivative)?;
     let energy = EnergySum::new(terms, layout, &grid, &derivative);
-    let map = FlowMap::new(layout, &grid, &derivative);
+    let map = FlowMap::in_gauge(scene.flow.gauge.rule(), layout, &grid, &derivative);
     let normal = normal_mobility(scene.flow.normal_mobility, &grid, &derivative);
     let mobilities = density_mobilities(scene, &grid, &derivative)?;
     Ok((GradientFlow::new(map, energy, layout, normal, mobilities), diagnostics))

@@ -17,7 +17,8 @@ use super::report::Report;
 use super::section::Section;
 use super::shipped::SHIPPED;
 use super::suggest::nearest;
-use super::{Accuracy, Curve, Density, Energy, Flow, Gauge, Output, Time};
+use super::{Accuracy, Curve, Density, Energy, Flow, Output, Time};
+use crate::flow::MetricRole;
 
 /// Longer texts are not scenes.
 pub const MAX_SCENE_BYTES: usize = 1 << 20;
@@ -177,7 +178,7 @@ fn check_size(bytes: usize, source_name: &str) -> Result<(), SceneError> {
 fn check_weights(root: &Section<'_>, density: &[Density], flow: &Flow) {
     let gauges = std::iter::once(flow.gauge).chain(flow.switch.iter().map(|switch| switch.gauge));
     let weighted = density.iter().any(|density| density.weight.is_some());
-    if weighted && gauges.into_iter().any(|gauge| gauge == Gauge::CoMoving) {
+    if weighted && gauges.into_iter().any(|gauge| gauge.metric() == MetricRole::Field) {
         let remedy = "a weight is a function of the fraction of the arc length, which co-moving nodes do not keep: drop \
                       it, or use gauge = \"scaled-arc-length\"";
         root.fault("flow", Fault::Conflict { with: "density.weight", remedy });

@@ -4,11 +4,13 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::choice::names;
-use super::error::{Bound, Fault};
+use super::error::Bound;
 use super::formula::Formula;
+use super::gauge::Gauge;
 use super::keywords::{Entries, Within};
 use super::section::Section;
 use super::switch::{MAX_SWITCHES, Switch};
+use crate::flow::MetricRole;
 
 /// Table `[flow]`; may be left out.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -48,18 +50,6 @@ names! {
     }
 }
 
-names! {
-    /// The gauge: which tangential velocity goes with a normal one.
-    pub enum Gauge {
-        /// The metric g stays uniform along the curve. The default.
-        ScaledArcLength = "scaled-arc-length",
-        /// The metric g is the length times a fixed function of the parameter, `grading`.
-        Graded = "graded",
-        /// Every node moves along the normal, and the metric g with the curve: nodes are material points.
-        CoMoving = "co-moving",
-    }
-}
-
 impl Default for Flow {
     fn default() -> Self {
         Self {
@@ -76,7 +66,7 @@ impl Flow {
     /// Whether the nodes follow the solution: graded, and no grading is given.
     #[must_use]
     pub fn follows_solution(&self) -> bool {
-        self.gauge == Gauge::Graded && self.grading.is_none()
+        self.gauge.metric() == MetricRole::Graded && self.grading.is_none()
     }
 
     /// `end` is the end time, if that is known.
@@ -94,26 +84,5 @@ impl Flow {
             stop_on_contact: stop_on_contact.unwrap_or(default.stop_on_contact),
             switch,
         }
-    }
-}
-
-impl Gauge {
-    /// The keys `gauge` and `grading` of a table.
-    pub(super) fn read(section: &mut Section<'_>) -> (Option<Self>, Option<Formula>) {
-        let gauge = section.get("gauge").and_then(|entry| entry.choice(&[]));
-        let grading = section.get("grading");
-        let known = gauge.unwrap_or(Flow::default().gauge);
-        match (known, &grading) {
-            (Gauge::Graded | Gauge::CoMoving, Some(_)) => {}
-            // A gauge that is not known has its own message.
-            (other, Some(_)) if gauge.is_some() || !section.has("gauge") => {
-                let remedy = "drop the grading, or use gauge = \"graded\"";
-                section.fault("grading", Fault::OtherChoice { choice: "gauge", value: other.name(), remedy });
-            }
-            _ => {}
-        }
-        let grading =
-            grading.and_then(|entry| entry.positive_formula("s", "add a constant, for example 0.1"));
-        (gauge, grading)
     }
 }

@@ -31,6 +31,7 @@ mod entry;
 mod error;
 mod flow;
 mod formula;
+mod gauge;
 mod keywords;
 mod message;
 mod output;
@@ -53,8 +54,9 @@ pub use energy::{
     Regularization,
 };
 pub use error::{Bound, Fault, Place, Problem, SceneError};
-pub use flow::{Flow, Gauge, NormalMobility};
+pub use flow::{Flow, NormalMobility};
 pub use formula::Formula;
+pub use gauge::Gauge;
 pub use output::{Frames, Output, OutputField, Spacing};
 pub use points::{PointsError, parse as parse_points};
 pub use switch::Switch;

@@ -5,8 +5,8 @@ use serde::Serialize;
 
 use super::entry::Entry;
 use super::error::{Bound, Fault};
-use super::flow::Gauge;
 use super::formula::Formula;
+use super::gauge::Gauge;
 use super::keywords::Within;
 use super::section::Section;
 

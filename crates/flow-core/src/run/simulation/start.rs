@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use super::clocks::Clocks;
 use super::{ENERGY_TOLERANCE_SHARE, Simulation};
+use crate::flow::MetricRole;
 use crate::integrator::{
     Adaptive, AdaptiveOptions, Clocked, Counters, Finish, INTEGRALS, Integrals, Multistep, Problem, Stopwatch,
 };
@@ -12,7 +13,7 @@ use crate::run::frames::{Start, frame};
 use crate::run::membrane::Membrane;
 use crate::run::provenance::Provenance;
 use crate::run::record::{Record, StepLog, StopReason};
-use crate::run::scene::{Gauge, Scene};
+use crate::run::scene::Scene;
 use crate::run::schedule::frame_times;
 use crate::run::seconds::Seconds;
 use crate::run::setup::Setup;
@@ -147,10 +148,10 @@ fn rest_tolerance(scene: &Scene) -> f64 {
     let flow = &scene.flow;
     let switched = flow.switch.iter().map(|switch| (switch.gauge, &switch.grading));
     let mut gauges = switched.chain([(flow.gauge, &flow.grading)]);
-    let slides = gauges.any(|(gauge, grading)| match gauge {
-        Gauge::CoMoving => true,
-        Gauge::Graded => grading.is_none(),
-        Gauge::ScaledArcLength => false,
+    let slides = gauges.any(|(gauge, grading)| match gauge.metric() {
+        MetricRole::Field => true,
+        MetricRole::Graded => grading.is_none(),
+        MetricRole::Uniform => false,
     });
     let share = if slides { 0.1 } else { 0.01 };
     scene.time.equilibrium_tolerance.unwrap_or(share * scene.accuracy.tolerance)

@@ -1,8 +1,9 @@
 //! What limits a run, from its shares and counters.
 
 use super::super::record::Record;
-use super::super::scene::{Gauge, LinearSolver, Scene};
+use super::super::scene::{LinearSolver, Scene};
 use super::WhySlow;
+use crate::flow::MetricRole;
 
 /// What the time of a run goes up with most.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -175,11 +176,11 @@ fn easier_solves(record: &Record) -> &'static str {
     // The scene of a file of another version may not be readable here; the general advice holds then.
     let Ok(scene) = Scene::parse(&record.resolved_scene, "the scene of the result") else { return smaller };
     let positions = scene.energy.adhesion.is_some() || scene.energy.area.is_some();
-    match (scene.flow.gauge, scene.accuracy.linear_solver) {
-        (Gauge::CoMoving, _) => {
+    match (scene.flow.gauge.metric(), scene.accuracy.linear_solver) {
+        (MetricRole::Field, _) => {
             "a [[flow.switch]] to gauge = \"scaled-arc-length\" before the flow comes to rest"
         }
-        (Gauge::Graded, _) => "a weaker flow.grading, or gauge = \"scaled-arc-length\"",
+        (MetricRole::Graded, _) => "a weaker flow.grading, or gauge = \"scaled-arc-length\"",
         (_, LinearSolver::Fourier) => "accuracy.linear_solver = \"auto\"",
         (_, LinearSolver::Auto | LinearSolver::Banded) if positions && record.nodes() <= 128 => {
             "accuracy.linear_solver = \"dense\": only it knows the terms that act on positions"

@@ -1,0 +1,55 @@
+//! The co-moving gauge W = 0: every node moves along the normal, and the metric g is a field. See `THEORY.md`, eq. (F19).
+
+use super::{Gauge, MetricRole, Workspace};
+use crate::flow::CurveFields;
+use crate::geometry::Complex64;
+use crate::geometry::vectors::{multiply, multiply_into, scale};
+
+/// Nodes are material points.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CoMoving;
+
+impl Gauge for CoMoving {
+    fn name(&self) -> &'static str {
+        "co-moving"
+    }
+
+    fn metric(&self) -> MetricRole {
+        MetricRole::Field
+    }
+
+    /// g ↦ gκV; what the nodes carry stays.
+    fn rates(&self, work: &mut Workspace, at: &CurveFields, v: &[f64], rates: &mut [Complex64]) -> f64 {
+        rates.fill(Complex64::default());
+        let (Some(metric), Some(field)) = (at.moving_metric(), work.layout.metric()) else { return f64::NAN };
+        let (modes, length) = (work.grid.modes(), at.length());
+        multiply_into(&mut work.product, at.at_nodes(0), v);
+        multiply(&mut work.product, metric.weight());
+        scale(&mut work.product, length);
+        let stretch = &mut rates[field * modes..(field + 1) * modes];
+        work.grid.transform(&work.product, stretch);
+        stretch[0].re
+    }
+
+    /// −∂𝓕/∂g.
+    fn stretching(
+        &self,
+        work: &mut Workspace,
+        _: &CurveFields,
+        gradient: &[Complex64],
+        by_length: f64,
+        out: &mut [f64],
+    ) {
+        let Some(field) = work.layout.metric() else { return out.fill(f64::NAN) };
+        let modes = work.grid.modes();
+        work.spectrum.copy_from_slice(&gradient[field * modes..(field + 1) * modes]);
+        work.grid.synthesise(&work.spectrum, out);
+        for value in out {
+            *value = -*value - by_length;
+        }
+    }
+
+    fn tangential_velocity(&self, _: &mut Workspace, _: &CurveFields, _: &[f64], w: &mut [f64]) {
+        w.fill(0.0);
+    }
+}

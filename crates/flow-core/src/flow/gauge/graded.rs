@@ -1,0 +1,80 @@
+//! Graded arc length: ∂_sW = w(−|Γ|κV + ∂_t|Γ|), ∫W dσ = 0, so that the metric stays |Γ|w. See `THEORY.md`, eq. (F17).
+
+use super::{Gauge, MetricRole, ScaledArcLength, Workspace};
+use crate::flow::CurveFields;
+use crate::geometry::Complex64;
+use crate::geometry::vectors::{
+    add_scaled, mean, mean_of_product, multiply, multiply_by, multiply_by_conjugate, multiply_into, scale,
+};
+
+/// The nodes keep their fractions of the arc length; without a grading these are equal, as in [`ScaledArcLength`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Graded;
+
+impl Gauge for Graded {
+    fn name(&self) -> &'static str {
+        "graded"
+    }
+
+    fn metric(&self) -> MetricRole {
+        MetricRole::Graded
+    }
+
+    fn rates(&self, work: &mut Workspace, at: &CurveFields, v: &[f64], rates: &mut [Complex64]) -> f64 {
+        let Some(grading) = at.grading() else { return ScaledArcLength.rates(work, at, v, rates) };
+        let length = at.length();
+        multiply_into(&mut work.product, at.at_nodes(0), v);
+        let stretch = mean_of_product(grading.weight(), &work.product);
+        work.product.iter_mut().for_each(|product| *product -= stretch);
+        multiply(&mut work.product, grading.weight());
+        work.grid.transform(&work.product, &mut work.spectrum);
+        // D₋W = w(−|Γ|κV + mean), with D₋ = −conj(D₊).
+        multiply_by_conjugate(&mut work.spectrum, length, work.derivative.inverse_to_flux());
+        work.grid.synthesise(&work.spectrum, &mut work.tangential);
+        let mean = mean_of_product(grading.at_midpoints(), &work.tangential) / grading.midpoint_mean();
+        work.tangential.iter_mut().for_each(|w| *w -= mean);
+        work.transport(at, rates);
+        length * stretch
+    }
+
+    /// Z − ⟨wZ⟩ − π of (F3): what a stretched piece loses, minus its tension.
+    fn stretching(
+        &self,
+        work: &mut Workspace,
+        at: &CurveFields,
+        gradient: &[Complex64],
+        by_length: f64,
+        out: &mut [f64],
+    ) {
+        let Some(grading) = at.grading() else {
+            return ScaledArcLength.stretching(work, at, gradient, by_length, out);
+        };
+        work.transport_transposed(at, gradient);
+        // W has mean zero over the curve, not over the flux points.
+        let excess = -mean(&work.product) / grading.midpoint_mean();
+        add_scaled(&mut work.product, excess, grading.at_midpoints());
+        work.grid.transform(&work.product, &mut work.spectrum);
+        multiply_by(&mut work.spectrum, work.derivative.inverse_to_flux());
+        work.grid.synthesise(&work.spectrum, &mut work.values);
+        let by_length = by_length + mean_of_product(grading.weight(), &work.values);
+        for (out, z) in out.iter_mut().zip(&work.values) {
+            *out = z - by_length;
+        }
+    }
+
+    fn tangential_velocity(&self, work: &mut Workspace, at: &CurveFields, v: &[f64], w: &mut [f64]) {
+        let Some(grading) = at.grading() else { return ScaledArcLength.tangential_velocity(work, at, v, w) };
+        multiply_into(&mut work.product, at.at_nodes(0), v);
+        scale(&mut work.product, -at.length());
+        let mean = mean_of_product(grading.weight(), &work.product);
+        work.product.iter_mut().for_each(|stretch| *stretch -= mean);
+        multiply(&mut work.product, grading.weight());
+        work.grid.transform(&work.product, &mut work.spectrum);
+        work.grid.integrate(&mut work.spectrum);
+        work.grid.synthesise(&work.spectrum, w);
+        let mean = mean_of_product(grading.weight(), w);
+        for w in w {
+            *w -= mean;
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! Scaled arc length: ∂_sW = −|Γ|κV + ∂_t|Γ|, ∫W dσ = 0, so that the metric stays |Γ|. See `THEORY.md`, eqs. (F1)–(F3).
+
+use super::{Gauge, MetricRole, Workspace};
+use crate::flow::CurveFields;
+use crate::geometry::Complex64;
+use crate::geometry::vectors::{multiply_by, multiply_by_conjugate, multiply_into, scale};
+
+/// The nodes stay at equal distances.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ScaledArcLength;
+
+impl Gauge for ScaledArcLength {
+    fn name(&self) -> &'static str {
+        "scaled-arc-length"
+    }
+
+    fn metric(&self) -> MetricRole {
+        MetricRole::Uniform
+    }
+
+    fn rates(&self, work: &mut Workspace, at: &CurveFields, v: &[f64], rates: &mut [Complex64]) -> f64 {
+        let length = at.length();
+        multiply_into(&mut work.product, at.at_nodes(0), v);
+        work.grid.transform(&work.product, &mut work.spectrum);
+        let length_rate = length * work.spectrum[0].re;
+        // D₋W = −|Γ|κV + mean, with D₋ = −conj(D₊).
+        multiply_by_conjugate(&mut work.spectrum, length, work.derivative.inverse_to_flux());
+        work.grid.synthesise(&work.spectrum, &mut work.tangential);
+        work.transport(at, rates);
+        length_rate
+    }
+
+    /// Z − ⟨Z⟩ − π of (F3): what a stretched piece loses, minus its tension.
+    fn stretching(
+        &self,
+        work: &mut Workspace,
+        at: &CurveFields,
+        gradient: &[Complex64],
+        by_length: f64,
+        out: &mut [f64],
+    ) {
+        work.transport_transposed(at, gradient);
+        work.grid.transform(&work.product, &mut work.spectrum);
+        multiply_by(&mut work.spectrum, work.derivative.inverse_to_flux());
+        work.grid.synthesise(&work.spectrum, &mut work.values);
+        for (out, z) in out.iter_mut().zip(&work.values) {
+            *out = z - by_length;
+        }
+    }
+
+    fn tangential_velocity(&self, work: &mut Workspace, at: &CurveFields, v: &[f64], w: &mut [f64]) {
+        multiply_into(&mut work.product, at.at_nodes(0), v);
+        scale(&mut work.product, -at.length());
+        work.grid.transform(&work.product, &mut work.spectrum);
+        work.grid.integrate(&mut work.spectrum);
+        work.grid.synthesise(&work.spectrum, w);
+    }
+}

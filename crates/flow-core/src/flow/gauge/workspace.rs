@@ -1,0 +1,72 @@
+//! What gauges work with on one grid.
+
+use crate::flow::curve_fields::CurveFields;
+use crate::geometry::vectors::{add_product, apply_symbol, multiply_by_conjugate, multiply_into};
+use crate::geometry::{Complex64, Layout, PeriodicGrid};
+use crate::operators::{Derivative, GradedLaplacian};
+
+/// Grid, derivative and scratch.
+#[derive(Clone, Debug)]
+pub struct Workspace {
+    /// Shape of the states.
+    pub layout: Layout,
+    /// The grid.
+    pub grid: PeriodicGrid,
+    /// The derivative with its grading.
+    pub derivative: Derivative,
+    /// The grading with −`Δ_s`; none if the nodes are uniform.
+    pub graded: Option<GradedLaplacian>,
+    /// Scratch: one value per node.
+    pub values: Vec<f64>,
+    /// Scratch: one value per node.
+    pub product: Vec<f64>,
+    /// Scratch: the values of W at the flux points.
+    pub tangential: Vec<f64>,
+    /// Scratch: one spectrum.
+    pub spectrum: Vec<Complex64>,
+}
+
+impl Workspace {
+    /// Room for the states of `layout`.
+    #[must_use]
+    pub fn new(layout: Layout, grid: &PeriodicGrid, derivative: &Derivative) -> Self {
+        let field = vec![0.0; layout.nodes()];
+        Self {
+            layout,
+            grid: grid.clone(),
+            derivative: derivative.clone(),
+            graded: GradedLaplacian::of(grid, derivative),
+            values: field.clone(),
+            product: field.clone(),
+            tangential: field,
+            spectrum: vec![Complex64::default(); grid.modes()],
+        }
+    }
+
+    /// ∂_s(φW) of each field φ into `rates`, W the values of `tangential` at the flux points: D₋(φW), D₋ = −conj(D₊).
+    pub fn transport(&mut self, at: &CurveFields, rates: &mut [Complex64]) {
+        let modes = self.grid.modes();
+        for field in 0..self.layout.fields() {
+            multiply_into(&mut self.product, at.at_flux_points(field), &self.tangential);
+            let rate = &mut rates[field * modes..(field + 1) * modes];
+            self.grid.transform(&self.product, rate);
+            multiply_by_conjugate(rate, -1.0, self.derivative.to_flux());
+        }
+    }
+
+    /// Σ φ ∂_s p over the fields, at the flux points, into `product`: minus the transpose of [`Workspace::transport`].
+    pub fn transport_transposed(&mut self, at: &CurveFields, gradient: &[Complex64]) {
+        let modes = self.grid.modes();
+        for field in 0..self.layout.fields() {
+            let p = &gradient[field * modes..(field + 1) * modes];
+            apply_symbol(&mut self.spectrum, p, self.derivative.to_flux());
+            self.grid.synthesise(&self.spectrum, &mut self.values);
+            let phi = at.at_flux_points(field);
+            if field == 0 {
+                multiply_into(&mut self.product, phi, &self.values);
+            } else {
+                add_product(&mut self.product, phi, &self.values);
+            }
+        }
+    }
+}
