@@ -7,7 +7,7 @@ use flow_core::geometry::vectors::{
     apply_symbol, mean_of_product, multiply_by, multiply_by_conjugate, multiply_into,
 };
 
-/// W = α𝒯V, 𝒯 that of the graded gauge.
+/// W = `α𝒯V`, 𝒯 that of the graded gauge.
 #[derive(Clone, Copy, Debug)]
 pub struct Partly(pub f64);
 

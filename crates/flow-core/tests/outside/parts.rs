@@ -84,7 +84,9 @@ impl DensityMobility for SlowExchange {
 
     fn apply(&mut self, length: f64, potential: &[Complex64], out: &mut [Complex64]) {
         self.exchange.apply(length, potential, out);
-        out.iter_mut().for_each(|value| *value *= self.speed);
+        for value in out {
+            *value *= self.speed;
+        }
     }
 
     fn symbol(&self, _: f64, _: f64) -> f64 {

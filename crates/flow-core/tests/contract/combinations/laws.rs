@@ -118,7 +118,7 @@ impl Flowing {
         }
     }
 
-    /// Rate of ∫τ dσ = ∫τg ds, relative to the largest rate of the turning: ∫(τ^⊥ θ_t g + τ g_t) ds.
+    /// Rate of ∫τ dσ = ∫τg ds, relative to the largest rate of the turning: ∫(τ^⊥ `θ_t` g + τ `g_t`) ds.
     fn gap_rate(&self) -> f64 {
         let nodes = self.layout.nodes();
         let angle = antiderivative(&self.y[self.layout.field(0)]);
