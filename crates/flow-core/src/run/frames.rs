@@ -5,8 +5,9 @@ use serde::{Deserialize, Serialize};
 use super::diagnostics::{Diagnostics, Evaluated};
 use super::membrane::{ANGLE, CENTRE, DISSIPATED, Membrane};
 use super::record::Frame;
+use crate::flow::Rate;
 use crate::geometry::{StateRef, enclosed_area};
-use crate::integrator::{INTEGRALS, Problem};
+use crate::integrator::{Finish, INTEGRALS, Problem};
 
 /// Evaluates all that a frame holds, for a spectral state, which is closed in place.
 ///
@@ -23,10 +24,14 @@ pub fn frame(
 ) -> Frame {
     let angle = start.angle + integrals[ANGLE];
     // An interpolated state is closed to the tolerance; the projection takes the rest.
-    membrane.finish(time, y);
+    let finish = membrane.finish(time, y);
     let closure_defect = closure_defect.unwrap_or_else(|| membrane.closure_defect());
     let layout = membrane.layout();
-    let rate = membrane.flow().spectral_dissipation(y);
+    // A state that was finished has been evaluated; one that is not finite is shown as it is.
+    let rate = match finish {
+        Finish::Good { energy, dissipation, .. } => Rate { energy, dissipation },
+        Finish::NotFinite => membrane.flow().spectral_dissipation(y),
+    };
     let normal_velocity = membrane.flow().normal_velocity().to_vec();
     let at = membrane.flow().current();
     let pointwise: Vec<Vec<f64>> = (0..layout.fields()).map(|field| at.at_nodes(field).to_vec()).collect();
