@@ -77,7 +77,7 @@ def figure_eight() -> Figure:
     later = result.time > 0
     history.loglog(result.time[later], np.abs(product / exact_product - 1)[later], color=BLACK)
     history.set(xlabel="time $t$", xlim=(1e-6, 1), ylabel="relative distance from the elastica")
-    history.set_title(f"$\\frac{{1}}{{2}}\\int\\kappa^2 d\\sigma\\cdot|\\Gamma|$ against {exact_product:.4f}")
+    history.set_title(f"$\\frac{{1}}{{2}}\\int\\kappa^2\\,d\\sigma\\cdot|\\Gamma|$ against {exact_product:.4f}")
     return figure
 
 

@@ -101,6 +101,16 @@ fn an_incompressible_curve_keeps_the_length_of_every_piece() {
     assert!(change > 1e-3, "{change:.1e}");
 }
 
+/// On many nodes the steps leave the most to the solver; a balance that is wrong there was seen once.
+#[test]
+fn fine_nodes_keep_the_balance_of_the_energy() {
+    let record = run(&shipped("three_fold", &[("flow.gauge", "co-moving"), ("accuracy.nodes", "768")]));
+    assert_eq!(record.stop_reason, StopReason::Equilibrium);
+    assert!(balance(&record) < 2e-5, "{:.1e}", balance(&record));
+    assert!((last(&record).energy / 5.604_830_56 - 1.0).abs() < 1e-6, "{}", last(&record).energy);
+    assert!(record.counters.rejections.solver == 0, "{:?}", record.counters);
+}
+
 #[test]
 fn every_mobility_runs() {
     for mobility in [
