@@ -25,4 +25,5 @@ class Accuracy(Table):
     trigonometric, but ``central-8`` on graded nodes that follow the solution."""
     linear_solver: Literal["auto", "fourier", "banded", "dense"] = default("accuracy", "linear_solver")
     """Solver of the linear systems of the implicit steps: ``fourier`` (O1) or ``banded`` (O2) preconditioner,
-    ``dense`` factorisation (O3), or ``auto``."""
+    ``dense`` factorisation (O3), or ``auto``, which starts with exponential steps that solve none (THEORY.md, I10). Naming one
+    makes all steps implicit."""

@@ -1,4 +1,5 @@
-//! Adaptive implicit time integration of dy/dt = f(y); sees a right-hand side, a Jacobian and `&[f64]`.
+//! Adaptive time integration of dy/dt = f(y), exponential while that pays and implicit from then on; sees a right-hand side, a
+//! Jacobian and `&[f64]`.
 
 mod adaptive;
 mod bdf;

@@ -26,7 +26,7 @@ pub struct Accuracy {
     pub nodes: Nodes,
     /// Discrete derivative along the curve.
     pub derivative: Derivative,
-    /// Solver of the linear systems of the implicit steps.
+    /// Solver of the linear systems of the implicit steps; naming one makes all steps implicit.
     pub linear_solver: LinearSolver,
 }
 
