@@ -21,6 +21,9 @@ class Frames:
     All arrays are read-only NumPy arrays of ``float64``, made at first use: one entry per saved frame (the first is
     the initial state, the last the final one), and per node of the curve. Units are those of the scene; numbers in
     parentheses are equations of ``THEORY.md``.
+
+    A run saves its frames one by one, so an array over all frames is written once, at its first use, into the memory that
+    NumPy then owns; a frame of it, ``result.curvature[-1]``, is a view.
     """
 
     _record: _curveflow.Record
@@ -154,7 +157,7 @@ class Frames:
 
     @cached_property
     def steps(self) -> Mapping[str, NDArray[Any]]:
-        """The log of accepted steps, arrays of shape (step,).
+        """The log of accepted steps, arrays of shape (step,), copied once: files and pictures need the log as well.
 
         ``time``, ``energy`` and ``dissipation`` at the end of the step, its ``size``, the ``order`` of the method,
         and the attempts rejected before it by cause: ``rejections_error``, ``rejections_solver``,

@@ -115,19 +115,24 @@ class Simulation:
 
     @property
     def state(self) -> State:
-        """The state at this time, computed anew at each use."""
-        now = Result(self._native.snapshot())
+        """The state at this time, computed anew at each use.
+
+        Its arrays are those of a frame made for them, not copies, and later steps do not change them. They are no views of
+        the simulation: that holds Fourier coefficients, and overwrites them in each step.
+        """
+        (time, energy, dissipation, length, area), position, fields, density = self._native.state()
+        curvature, metric, normal_velocity = fields
         return State(
-            time=float(now.time[0]),
-            energy=float(now.energy[0]),
-            dissipation=float(now.dissipation[0]),
-            length=float(now.length[0]),
-            area=float(now.area[0]),
-            position=now.position[0],
-            curvature=now.curvature[0],
-            metric=now.metric[0],
-            normal_velocity=now.normal_velocity[0],
-            density=MappingProxyType({name: values[0] for name, values in now.density.items()}),
+            time=time,
+            energy=energy,
+            dissipation=dissipation,
+            length=length,
+            area=area,
+            position=position,
+            curvature=curvature,
+            metric=metric,
+            normal_velocity=normal_velocity,
+            density=MappingProxyType(dict(density)),
         )
 
     def add_callback(

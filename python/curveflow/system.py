@@ -13,6 +13,9 @@ class System:
     For those who bring their own integrator; :func:`curveflow.run` needs none of this. The state ``y`` holds the Fourier
     coefficients of curvature and densities per unit parameter (real and imaginary parts in turn), then the length.
 
+    Arrays are read and written in place, without the interpreter lock: other threads go on, and must not write to them
+    meanwhile. Calls on one system wait for each other.
+
     >>> import curveflow as cf
     >>> system = cf.System(cf.Scene.shipped("circle"))
     >>> rate = system.rate(system.initial)
@@ -25,7 +28,7 @@ class System:
 
     @property
     def initial(self) -> NDArray[np.float64]:
-        """Initial state, closed to rounding. Shape (size,), read-only."""
+        """Initial state, closed to rounding. Shape (size,), read-only; the same array at each use."""
         return self._native.initial
 
     @property

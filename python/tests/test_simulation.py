@@ -111,3 +111,20 @@ def test_ctrl_c_leaves_a_simulation_that_goes_on(endless: cf.Scene):
     timer.join()
     steps = simulation.steps
     assert simulation.step() and simulation.steps == steps + 1
+
+
+def test_the_arrays_of_a_state_are_its_own(scene: cf.Scene):
+    simulation = cf.Simulation(scene)
+    simulation.step()
+    state = simulation.state
+    arrays = [state.position, state.curvature, state.metric, state.normal_velocity, state.density["protein"]]
+    for array in arrays:
+        # The buffer is one of the core that the array took over: no array stands behind it, and nobody can write to it.
+        assert not array.flags.owndata and not array.flags.writeable and array.flags.c_contiguous
+    position = arrays[0].base
+    assert isinstance(position, np.ndarray) and not isinstance(position.base, np.ndarray)
+    before = [array.copy() for array in arrays]
+    simulation.step()
+    assert all(np.array_equal(a, b) for a, b in zip(arrays, before))
+    assert not np.array_equal(simulation.state.position, before[0])
+    assert not any(np.shares_memory(a, b) for i, a in enumerate(arrays) for b in arrays[:i])

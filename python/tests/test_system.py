@@ -1,5 +1,7 @@
 """The system of a scene, for integrators from outside."""
 
+from concurrent.futures import ThreadPoolExecutor
+
 import curveflow as cf
 import numpy as np
 import pytest
@@ -36,3 +38,28 @@ def test_the_blocks_cover_the_state(system):
 def test_a_wrong_size_is_refused(system):
     with pytest.raises(ValueError, match="entries"):
         system.rate(np.zeros(3))
+
+
+def test_arrays_are_used_in_place(system):
+    y = system.initial
+    assert system.initial is y and not y.flags.writeable
+    with pytest.raises(ValueError, match="WRITEABLE"):
+        y.flags.writeable = True
+    out = np.full_like(y, np.nan)
+    assert system.rate(y, out) is out and np.isfinite(out).all()
+    with pytest.raises(TypeError, match="contiguous"):
+        system.rate(np.stack([y, y], axis=1)[:, 0], out)
+    with pytest.raises(TypeError):
+        system.rate(y, np.empty(y.size, dtype=np.float32))
+    with pytest.raises(TypeError, match="read-only|writeable"):
+        system.rate(np.zeros_like(y), y)
+
+
+def test_calls_on_one_system_do_not_hold_the_interpreter():
+    """Threads call one system at once: each gets its own rate, and none waits for ever."""
+    system = cf.System(cf.Scene.shipped("three_fold"))
+    states = [system.initial * (1 + 1e-9 * k) for k in range(4)]
+    expected = [system.rate(y) for y in states]
+    with ThreadPoolExecutor(len(states)) as pool:
+        found = list(pool.map(lambda y: [system.rate(y) for _ in range(20)][-1], states))
+    assert all(np.array_equal(a, b) for a, b in zip(found, expected))

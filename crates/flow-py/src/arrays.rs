@@ -15,7 +15,8 @@ pub fn vector<T: Element>(py: Python<'_>, values: Vec<T>) -> Vector<'_, T> {
     frozen::<T, Ix1>(values.into_pyarray(py))
 }
 
-/// Copies `values` into an array.
+/// Copies `values` into an array: they stay where they are, for files and pictures, and only an array that owns its buffer
+/// can outlive them without `unsafe`.
 pub fn copied<'py, T: Element>(py: Python<'py>, values: &[T]) -> Vector<'py, T> {
     frozen::<T, Ix1>(values.to_pyarray(py))
 }

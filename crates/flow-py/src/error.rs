@@ -86,6 +86,17 @@ impl PythonError for EvaluationError {
     }
 }
 
+/// An earlier call panicked and may have left its object half changed.
+#[derive(Debug, thiserror::Error)]
+#[error("an earlier call on this object failed by a bug in Curveflow; make a new one")]
+pub struct Panicked;
+
+impl PythonError for Panicked {
+    fn class(&self) -> &'static str {
+        "BugError"
+    }
+}
+
 /// Runs `call` without the interpreter lock and turns its error, or its panic, into an exception.
 pub fn detached<T: Send, E: PythonError>(
     py: Python<'_>,

@@ -162,7 +162,8 @@ impl Record {
     /// Position, per frame and node.
     fn position<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let (frames, nodes) = self.shape();
-        pairs(py, self.flat(2 * nodes, |frame| frame.position.as_flattened()), frames, nodes)
+        let values = py.detach(|| self.flat(2 * nodes, |frame| frame.position.as_flattened()));
+        pairs(py, values, frames, nodes)
     }
 
     /// The log of accepted steps, by name.
@@ -248,12 +249,17 @@ impl Record {
         vector(py, self.core.frames.iter().map(value).collect())
     }
 
-    fn per_node<'py>(&self, py: Python<'py>, field: impl Fn(&Frame) -> &[f64]) -> PyResult<Table<'py>> {
+    fn per_node<'py>(
+        &self,
+        py: Python<'py>,
+        field: impl Fn(&Frame) -> &[f64] + Send,
+    ) -> PyResult<Table<'py>> {
         let (frames, nodes) = self.shape();
-        table(py, self.flat(nodes, field), frames, nodes)
+        table(py, py.detach(|| self.flat(nodes, field)), frames, nodes)
     }
 
-    /// The rows of a field, one after the other.
+    /// The rows of a field, one after the other, in the buffer that an array takes over: frames come one by one, at times
+    /// on other numbers of nodes, so a table over all of them is written once the run is over, and only once.
     fn flat(&self, row: usize, field: impl Fn(&Frame) -> &[f64]) -> Vec<f64> {
         let mut values = Vec::with_capacity(row * self.core.frames.len());
         for frame in &self.core.frames {

@@ -9,6 +9,7 @@ use flow_core::run::{self as core, Frame, StepLog};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
+use crate::arrays::{Table, Vector, table, vector};
 use crate::error::detached;
 use crate::record::Record;
 use crate::scene::Scene;
@@ -86,11 +87,31 @@ impl Simulation {
         watcher.raised.map_or(Ok(more), Err)
     }
 
+    /// The state at hand: time, energy, dissipation, length, area; position, curvature, metric, normal velocity and each
+    /// density. The arrays take over the buffers of a frame that is made for them.
+    fn state<'py>(&self, py: Python<'py>) -> PyResult<State<'py>> {
+        let mut guard = self.lock()?;
+        let simulation = &mut *guard;
+        let frame = detached::<_, StorageError>(py, || Ok(simulation.frame()))?;
+        let nodes = frame.position.len();
+        let density = simulation.densities().iter().cloned().zip(frame.density);
+        Ok((
+            [frame.time, frame.energy, frame.dissipation, frame.length, frame.area],
+            table(py, frame.position.into_flattened(), nodes, 2)?,
+            [frame.curvature, frame.metric, frame.normal_velocity].map(|field| vector(py, field)),
+            density.map(|(name, values)| (name, vector(py, values))).collect(),
+        ))
+    }
+
     /// The state at hand, as a record of one frame.
-    fn snapshot(&self) -> PyResult<Record> {
-        let mut simulation = self.lock()?;
-        let frame: Frame = simulation.frame();
-        Ok(Record::new(simulation.record_of(vec![frame], StepLog::default())))
+    fn snapshot(&self, py: Python<'_>) -> PyResult<Record> {
+        let mut guard = self.lock()?;
+        let simulation = &mut *guard;
+        let record = detached::<_, StorageError>(py, || {
+            let frame: Frame = simulation.frame();
+            Ok(simulation.record_of(vec![frame], StepLog::default()))
+        })?;
+        Ok(Record::new(record))
     }
 
     /// What there is so far.
@@ -102,7 +123,12 @@ impl Simulation {
 
     /// Writes a checkpoint.
     fn checkpoint(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        let bytes = checkpoint::encode(&*self.lock()?);
-        detached(py, || atomic_file::write(&path, &bytes, true))
+        let mut guard = self.lock()?;
+        let (path, simulation) = (&path, &mut *guard);
+        // Moved: a simulation may change threads, but not be shared by two.
+        detached(py, move || atomic_file::write(path, &checkpoint::encode(simulation), true))
     }
 }
+
+/// What [`Simulation::state`] tells.
+type State<'py> = ([f64; 5], Table<'py>, [Vector<'py>; 3], Vec<(String, Vector<'py>)>);

@@ -1,49 +1,54 @@
 //! The system dy/dt = f(y) of a scene, for integrators from outside.
 
-use std::sync::{Mutex, MutexGuard};
+use std::sync::Mutex;
 
 use flow_core::integrator::{Finish, Problem};
-use flow_core::run::{Membrane, Setup};
-use numpy::{PyReadonlyArray1, PyReadwriteArray1};
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use flow_core::run::{Membrane, Setup, SetupError};
+use numpy::{PyArray1, PyReadonlyArray1, PyReadwriteArray1};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::arrays::{Vector, copied};
-use crate::error::detached;
+use crate::arrays::{Vector, vector};
+use crate::error::{Panicked, detached};
 use crate::scene::Scene;
 
 /// A flow with its initial state, in the spectral form that the integrator carries.
 #[pyclass(frozen, module = "curveflow._curveflow")]
 pub struct System {
     membrane: Mutex<Membrane>,
-    initial: Vec<f64>,
+    initial: Py<PyArray1<f64>>,
+    size: usize,
     blocks: Vec<(usize, usize)>,
 }
 
 impl System {
-    fn membrane(&self) -> PyResult<MutexGuard<'_, Membrane>> {
-        self.membrane.lock().map_err(|_| PyRuntimeError::new_err("an earlier call on this system panicked"))
+    /// Calls `function` without the interpreter lock; a call from another thread waits for its end, without the lock too.
+    fn call<T: Send>(&self, py: Python<'_>, function: impl FnOnce(&mut Membrane) -> T + Send) -> PyResult<T> {
+        detached::<_, Panicked>(py, || {
+            let mut membrane = self.membrane.lock().map_err(|_| Panicked)?;
+            Ok(function(&mut membrane))
+        })
     }
 
-    /// Calls `function` with two arrays of the size of the state.
+    /// Calls `function` with two arrays of the size of the state, in place.
     fn with_arrays(
         &self,
+        py: Python<'_>,
         from: &PyReadonlyArray1<'_, f64>,
         to: &mut PyReadwriteArray1<'_, f64>,
-        function: impl FnOnce(&mut Membrane, &[f64], &mut [f64]),
+        function: impl FnOnce(&mut Membrane, &[f64], &mut [f64]) + Send,
     ) -> PyResult<()> {
         let (from, to) = (from.as_slice()?, to.as_slice_mut()?);
         self.check(from.len())?;
         self.check(to.len())?;
-        function(&mut *self.membrane()?, from, to);
-        Ok(())
+        self.call(py, |membrane| function(membrane, from, to))
     }
 
     fn check(&self, length: usize) -> PyResult<()> {
-        if length == self.initial.len() {
+        let size = self.size;
+        if length == size {
             return Ok(());
         }
-        let size = self.initial.len();
         Err(PyValueError::new_err(format!("the system has {size} entries, the array {length}")))
     }
 }
@@ -52,18 +57,23 @@ impl System {
 impl System {
     #[new]
     fn new(py: Python<'_>, scene: &Scene) -> PyResult<Self> {
-        let Setup { mut membrane, mut state, .. } = detached(py, || Setup::new(&scene.core))?;
-        if membrane.finish(0.0, &mut state) == Finish::NotFinite {
+        let (membrane, state, finish) = detached::<_, SetupError>(py, || {
+            let Setup { mut membrane, mut state, .. } = Setup::new(&scene.core)?;
+            let finish = membrane.finish(0.0, &mut state);
+            Ok((membrane, state, finish))
+        })?;
+        if finish == Finish::NotFinite {
             return Err(PyValueError::new_err("the energy is not finite at the initial state"));
         }
         let blocks = membrane.blocks().into_iter().map(|block| (block.start, block.end)).collect();
-        Ok(Self { membrane: Mutex::new(membrane), initial: state, blocks })
+        let (size, initial) = (state.len(), vector(py, state).unbind());
+        Ok(Self { membrane: Mutex::new(membrane), initial, size, blocks })
     }
 
-    /// The initial state.
+    /// The initial state: one array, which cannot be written to.
     #[getter]
     fn initial<'py>(&self, py: Python<'py>) -> Vector<'py> {
-        copied(py, &self.initial)
+        self.initial.bind(py).clone()
     }
 
     /// First entry and end of each field, and of the length.
@@ -73,34 +83,44 @@ impl System {
     }
 
     /// f(y) into `rate`.
-    fn rate(&self, y: PyReadonlyArray1<'_, f64>, mut rate: PyReadwriteArray1<'_, f64>) -> PyResult<()> {
-        self.with_arrays(&y, &mut rate, Membrane::rate)
+    fn rate(
+        &self,
+        py: Python<'_>,
+        y: PyReadonlyArray1<'_, f64>,
+        mut rate: PyReadwriteArray1<'_, f64>,
+    ) -> PyResult<()> {
+        self.with_arrays(py, &y, &mut rate, Membrane::rate)
     }
 
     /// Freezes J at y; f(y) into `rate`.
-    fn linearise(&self, y: PyReadonlyArray1<'_, f64>, mut rate: PyReadwriteArray1<'_, f64>) -> PyResult<()> {
-        self.with_arrays(&y, &mut rate, Membrane::linearise)
+    fn linearise(
+        &self,
+        py: Python<'_>,
+        y: PyReadonlyArray1<'_, f64>,
+        mut rate: PyReadwriteArray1<'_, f64>,
+    ) -> PyResult<()> {
+        self.with_arrays(py, &y, &mut rate, Membrane::linearise)
     }
 
     /// Jv into `out`.
     fn jacobian_product(
         &self,
+        py: Python<'_>,
         v: PyReadonlyArray1<'_, f64>,
         mut out: PyReadwriteArray1<'_, f64>,
     ) -> PyResult<()> {
-        self.with_arrays(&v, &mut out, Membrane::jacobian_product)
+        self.with_arrays(py, &v, &mut out, Membrane::jacobian_product)
     }
 
     /// Prepares an approximate inverse of I − γJ; false if that fails.
-    fn factorise(&self, gamma: f64) -> PyResult<bool> {
-        Ok(self.membrane()?.factorise(gamma))
+    fn factorise(&self, py: Python<'_>, gamma: f64) -> PyResult<bool> {
+        self.call(py, |membrane| membrane.factorise(gamma))
     }
 
     /// The approximate solution of (I − γJ)x = r, in place.
-    fn precondition(&self, mut r: PyReadwriteArray1<'_, f64>) -> PyResult<()> {
+    fn precondition(&self, py: Python<'_>, mut r: PyReadwriteArray1<'_, f64>) -> PyResult<()> {
         let r = r.as_slice_mut()?;
         self.check(r.len())?;
-        self.membrane()?.precondition(r);
-        Ok(())
+        self.call(py, |membrane| membrane.precondition(r))
     }
 }

@@ -27,6 +27,12 @@ impl Simulation {
         )
     }
 
+    /// Names of the densities, in the order of [`Frame::density`].
+    #[must_use]
+    pub fn densities(&self) -> &[String] {
+        &self.record.densities
+    }
+
     /// What there is so far, as if the run were interrupted here, without interrupting it.
     pub fn record(&mut self) -> Record {
         let mut frames = self.record.frames.clone();
