@@ -42,7 +42,7 @@ impl Crossings {
     /// The crossings of the closed polygon through `position`, by component, in the order of their first segments.
     pub fn find(&mut self, position: [&[f64]; 2]) -> &[Crossing] {
         self.found.clear();
-        if !self.round(position) {
+        if !self.round(position) || self.is_star_shaped() {
             return &self.found;
         }
         let width = self.enter_cells();
@@ -87,6 +87,27 @@ impl Crossings {
             }
         }
         true
+    }
+
+    /// Whether the ray from the mean of the nodes sweeps the polygon once, without turning back: it then meets each segment
+    /// in a sector of its own, and no two cross. Exact, and far cheaper than the search.
+    fn is_star_shaped(&self) -> bool {
+        let count = self.nodes[0].len() as i64;
+        let centre = [self.nodes[0].iter().sum::<i64>() / count, self.nodes[1].iter().sum::<i64>() / count];
+        let mut turns = [0_usize; 2];
+        let mut swept = [0_usize; 2];
+        for segment in 0..self.nodes[0].len() {
+            let (a, b) = (self.node(segment), self.node(self.next(segment)));
+            let side = cross(centre, a, b);
+            if side == 0 {
+                return false;
+            }
+            let way = usize::from(side < 0);
+            swept[way] += 1;
+            turns[way] += usize::from((a[1] < centre[1]) != (b[1] < centre[1]));
+        }
+        // A turn passes the height of the centre upwards and downwards.
+        swept.contains(&0) && turns.contains(&2)
     }
 
     /// Lowest and highest corner of the box around a segment.
@@ -210,6 +231,34 @@ mod tests {
                 assert_eq!(crossings(&parametric(&x, &y), nodes).len(), lobes, "{nodes} nodes");
             }
         }
+    }
+
+    #[test]
+    fn polygons_that_a_ray_sweeps_once_are_not_searched() {
+        let swept = |shape: &Shape, nodes: usize| {
+            let curve = shape.resample(nodes).unwrap();
+            let component = |axis: usize| curve.position.iter().map(|p| p[axis]).collect::<Vec<_>>();
+            let [mut x, mut y] = [component(0), component(1)];
+            [(); 2].map(|()| {
+                x.reverse(); // clockwise, and back
+                y.reverse();
+                let mut crossings = Crossings::new(nodes);
+                crossings.round([&x, &y]) && crossings.is_star_shaped()
+            })
+        };
+        for nodes in [8, 65, 256, 4096] {
+            assert_eq!(swept(&Shape::Trillium, nodes), [true; 2]);
+            assert_eq!(swept(&Shape::Circle { radius: 1e-7 }, nodes), [true; 2]);
+            assert_eq!(swept(&Shape::FigureEight { size: 1.3 }, nodes), [false; 2]);
+        }
+        assert_eq!(
+            swept(&parametric("(2 + cos(phi))*cos(2*phi)", "(2 + cos(phi))*sin(2*phi)"), 96),
+            [false; 2]
+        );
+        // A pentagram turns one way all along, twice around its centre.
+        let corner = |i: u32| (TAU * f64::from(2 * i) / 5.0 + 0.1).sin_cos();
+        let [x, y] = [(0..5).map(|i| corner(i).1).collect::<Vec<_>>(), (0..5).map(|i| corner(i).0).collect()];
+        assert_eq!(Crossings::new(5).count([&x, &y]), 5);
     }
 
     #[test]

@@ -1,6 +1,8 @@
 //! Result files in HDF5: written whole, read back whole, opened by h5py, xarray (h5netcdf) and netCDF-4.
 
+mod bounds;
 mod dataset;
+mod heaps;
 mod layout;
 mod provenance;
 mod reader;

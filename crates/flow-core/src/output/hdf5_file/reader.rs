@@ -7,6 +7,8 @@ use std::path::Path;
 use hdf5_metno::types::VarLenUnicode;
 use hdf5_metno::{Error, File, Group, H5Type, Result as Hdf5Result};
 
+use super::bounds::{Bounds, check_links};
+use super::heaps::{broken_heap, has_wide_lengths};
 use super::layout::{
     CAUSES, CONVENTIONS, COUNTERS, FRAME_VALUES, NAMED_FIELDS, NAMED_VALUES, NODAL_FIELDS, STEP_VALUES,
 };
@@ -18,39 +20,57 @@ use crate::run::{Counters, Frame, Provenance, Record, Rejections, Seconds, StepL
 /// The first bytes of every HDF5 file.
 const SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
 
+/// Bytes in which every HDF5 file says how long its lengths are.
+const FIRST_BLOCK: usize = 48;
+
 /// Reads the result file `path`.
 /// # Errors
 /// [`StorageError::System`] if the file cannot be read at all, otherwise [`StorageError::NotHdf5`],
 /// [`StorageError::Foreign`] or [`StorageError::Damaged`].
 pub fn read(path: &Path) -> Result<Record, StorageError> {
-    check_signature(path)?;
     let damaged = |item: &str, source: Error| StorageError::Damaged {
         path: path.to_path_buf(),
         item: item.to_owned(),
         source: Box::new(source),
     };
+    let foreign = |found| StorageError::Foreign { path: path.to_path_buf(), found, expected: CONVENTIONS };
+    let bounds = Bounds::of(check_bytes(path, &damaged, &foreign)?);
     // The library reads the whole file at once and takes no lock on it.
     let mut options = File::with_options();
     let file = options.with_fapl(|plist| plist.core_filebacked(false)).open(path);
     let file = file.map_err(|source| damaged("its first block", source))?;
     let conventions = text(&file, "Conventions").ok();
     if conventions.as_deref() != Some(CONVENTIONS) {
-        let path = path.to_path_buf();
-        return Err(StorageError::Foreign { path, found: conventions, expected: CONVENTIONS });
+        return Err(foreign(conventions));
     }
-    Content { file }.record().map_err(|(item, source)| damaged(&item, source))
+    Content { file, bounds }.record().map_err(|(item, source)| damaged(&item, source))
 }
 
-fn check_signature(path: &Path) -> Result<(), StorageError> {
+/// Length of the file in bytes, if the library may be given it.
+fn check_bytes(
+    path: &Path,
+    damaged: &impl Fn(&str, Error) -> StorageError,
+    foreign: &impl Fn(Option<String>) -> StorageError,
+) -> Result<u64, StorageError> {
     let failed = |reason| StorageError::system(path, Operation::Read, reason);
     // Asked before opening: opening a pipe would wait for its other end.
     if !fs::metadata(path).map_err(failed)?.is_file() {
         return Err(StorageError::NotAFile { path: path.to_path_buf() });
     }
-    let mut start = Vec::new();
-    let file = fs::File::open(path).map_err(failed)?;
-    file.take(SIGNATURE.len() as u64).read_to_end(&mut start).map_err(failed)?;
-    if start == SIGNATURE { Ok(()) } else { Err(StorageError::NotHdf5 { path: path.to_path_buf() }) }
+    let mut file = fs::File::open(path).map_err(failed)?;
+    let mut bytes = Vec::new();
+    file.by_ref().take(SIGNATURE.len() as u64).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes != SIGNATURE {
+        return Err(StorageError::NotHdf5 { path: path.to_path_buf() });
+    }
+    file.read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() > FIRST_BLOCK && !has_wide_lengths(&bytes) {
+        return Err(foreign(None));
+    }
+    match broken_heap(&bytes) {
+        Some(place) => Err(damaged("its texts", format!("the heap at byte {place} does not add up").into())),
+        None => Ok(bytes.len() as u64),
+    }
 }
 
 /// What could not be read, and why.
@@ -59,10 +79,12 @@ type Failure = (String, Error);
 /// An open result file.
 struct Content {
     file: File,
+    bounds: Bounds,
 }
 
 impl Content {
     fn record(&self) -> Result<Record, Failure> {
+        self.check_groups()?;
         let mut record = Record {
             title: self.text("title")?,
             scene: self.text("scene")?,
@@ -86,12 +108,25 @@ impl Content {
         Ok(record)
     }
 
+    /// Every group that is read holds what it names.
+    fn check_groups(&self) -> Result<(), Failure> {
+        let named = NAMED_VALUES.iter().map(|list| list.group);
+        let named = named.chain(NAMED_FIELDS.iter().map(|list| list.group));
+        let others = ["steps", "steps/rejections"].into_iter().chain(seconds::groups(&self.file));
+        for name in ["/"].into_iter().chain(named).chain(others) {
+            let checked = self.file.group(name).and_then(|group| check_links(&group));
+            checked.map_err(|source| (format!("the group {name}"), source))?;
+        }
+        Ok(())
+    }
+
     fn frames(&self, record: &Record) -> Result<Vec<Frame>, Failure> {
         let count = self.values::<f64>("time", None)?.len();
         let nodes = self.values::<f64>("parameter", None)?.len();
-        let mut frames = vec![Frame::default(); count];
-        for entry in FRAME_VALUES {
-            let values = self.values(entry.name, Some(count))?;
+        let values: Result<Vec<_>, _> =
+            FRAME_VALUES.iter().map(|entry| self.values(entry.name, Some(count))).collect();
+        let mut frames = vec![Frame::default(); count]; // now that there is data for so many
+        for (entry, values) in FRAME_VALUES.iter().zip(values?) {
             frames.iter_mut().zip(values).for_each(|(frame, value)| *(entry.slot)(frame) = value);
         }
         for list in NAMED_VALUES {
@@ -166,10 +201,7 @@ impl Content {
 
     /// All values of a dataset, `expected` of them unless that is not known yet.
     fn values<T: H5Type>(&self, name: &str, expected: Option<usize>) -> Result<Vec<T>, Failure> {
-        let values = self.file.dataset(name).and_then(|dataset| {
-            // The library refuses to read nothing from a dataset without chunks.
-            if dataset.size() == 0 { Ok(Vec::new()) } else { dataset.read_raw() }
-        });
+        let values = self.file.dataset(name).and_then(|dataset| self.bounds.read(&dataset));
         let values: Vec<T> = values.map_err(|source| (format!("/{name}"), source))?;
         match expected {
             Some(expected) if values.len() != expected => {
@@ -196,6 +228,9 @@ impl Content {
                 return Ok(Vec::new());
             }
             let names: Vec<VarLenUnicode> = self.file.attr(name)?.read_raw()?;
+            if names.iter().any(|name| name.contains('/')) {
+                return Err("a name holds a slash".into());
+            }
             Ok(names.iter().map(|name| name.as_str().to_owned()).collect())
         };
         read().map_err(|source| (name.to_owned(), source))

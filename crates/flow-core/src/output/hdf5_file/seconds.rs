@@ -27,6 +27,11 @@ pub(super) fn write(file: &File, seconds: &Seconds, terms: &[String]) -> Result<
     Ok(())
 }
 
+/// Paths of the groups that `file` has for them.
+pub(super) fn groups(file: &File) -> Vec<&'static str> {
+    if file.link_exists(GROUP) { vec![GROUP, "seconds/evaluations"] } else { Vec::new() }
+}
+
 /// Reads them back; all are zero in a file that does not have them, because nothing was measured.
 pub(super) fn read(file: &File, terms: &[String]) -> Result<Seconds, (String, Error)> {
     if !file.link_exists(GROUP) {
