@@ -67,8 +67,7 @@ pub enum StorageError {
     #[error("{}: is not an HDF5 file; give a result file of Curveflow", .path.display())]
     NotHdf5 { path: PathBuf },
     /// The file is HDF5, but was not written by this program.
-    #[error("{}: is an HDF5 file, but its attribute Conventions is {found:?}, not \"{expected}\"; \
-             give a result file of Curveflow", .path.display())]
+    #[error("{}: is an HDF5 file, but {}; give a result file of Curveflow", .path.display(), origin(.found.as_deref(), expected))]
     Foreign { path: PathBuf, found: Option<String>, expected: &'static str },
     /// The file is no checkpoint.
     #[error("{}: is not a checkpoint of this version of Curveflow; run the scene anew, or use the version that wrote it",
@@ -112,6 +111,14 @@ impl StorageError {
     #[cold]
     pub(super) fn system(path: &Path, operation: Operation, reason: io::Error) -> Self {
         Self::System { path: path.to_path_buf(), operation, reason }
+    }
+}
+
+/// Whose file it is instead.
+fn origin(found: Option<&str>, expected: &str) -> String {
+    match found {
+        Some(found) => format!("its attribute Conventions is {found:?}, not {expected:?}"),
+        None => format!("it has no attribute Conventions, which is {expected:?} in a result"),
     }
 }
 

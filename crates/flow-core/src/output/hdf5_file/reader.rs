@@ -39,9 +39,9 @@ pub fn read(path: &Path) -> Result<Record, StorageError> {
     let mut options = File::with_options();
     let file = options.with_fapl(|plist| plist.core_filebacked(false)).open(path);
     let file = file.map_err(|source| damaged("its first block", source))?;
-    let conventions = text(&file, "Conventions").ok();
-    if conventions.as_deref() != Some(CONVENTIONS) {
-        return Err(foreign(conventions));
+    match conventions(&file).map_err(|source| damaged("its attributes", source))? {
+        Some(found) if found == CONVENTIONS => {}
+        found => return Err(foreign(found)),
     }
     Content { file, bounds }.record().map_err(|(item, source)| damaged(&item, source))
 }
@@ -235,6 +235,12 @@ impl Content {
         };
         read().map_err(|source| (name.to_owned(), source))
     }
+}
+
+/// What the file says that it is, if it says so.
+fn conventions(file: &File) -> Hdf5Result<Option<String>> {
+    const NAME: &str = "Conventions";
+    if file.attr_names()?.iter().any(|name| name == NAME) { text(file, NAME).map(Some) } else { Ok(None) }
 }
 
 fn text(group: &Group, name: &str) -> Hdf5Result<String> {
