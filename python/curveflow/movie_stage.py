@@ -63,8 +63,8 @@ class Stage:
         self._curve.set_array(0.5 * (value[:-1] + value[1:]))
         time = float(self._result.time[frame])
         self._time.set_text(f"$t$ = {time:.4g}")
-        past = self._history[0] <= time
-        self._past.set_data(np.maximum(self._history[0][past], self._first), self._history[1][past])
+        past = self._history[0] <= max(time, self._first)
+        self._past.set_data(self._history[0][past], self._history[1][past])
         self._now.set_data([max(time, self._first)], [self._result.energy[frame]])
 
     def _set_curve(self, axes: Axes, label: str, shown: list[int], height: int) -> LineCollection:
@@ -86,10 +86,12 @@ class Stage:
         return lines
 
     def _set_history(self, axes: Axes) -> None:
-        self._history = history(self._result)
-        self._first = scale_time(axes, self._history[0])
-        # What lies before a logarithmic axis, the initial time too, stands at its start.
-        axes.plot(np.maximum(self._history[0], self._first), self._history[1], color=_GREY, linewidth=1.5)
+        time, energy = history(self._result)
+        self._first = scale_time(axes, time)
+        # Of what lies before a logarithmic axis the last stands at its start.
+        start = max(int(np.searchsorted(time, self._first, side="right")) - 1, 0)
+        self._history = np.maximum(time[start:], self._first), energy[start:]
+        axes.plot(*self._history, color=_GREY, linewidth=1.5)
         (self._past,) = axes.plot([], [], color=_BLUE, linewidth=2)
         (self._now,) = axes.plot([], [], "o", color=_BLUE, clip_on=False)
         axes.set(xlabel="time $t$", ylabel="energy")

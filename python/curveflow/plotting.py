@@ -87,7 +87,9 @@ def draw_history(result: Result, axes: Axes) -> None:
     scale_time(axes, time)
     axes.set(xlabel="time $t$", ylabel="energy")
     right_axes.set_ylabel("length", color=_VERMILION)
-    axes.legend(handles=[left, right], fontsize="small", frameon=False)
+    # Above the panel: within it the lines may be anywhere.
+    place = (0.0, 1.0)
+    axes.legend(handles=[left, right], ncols=2, fontsize="small", frameon=False, loc="lower left", bbox_to_anchor=place)
 
 
 def history(result: Result) -> tuple[Array, Array]:

@@ -13,8 +13,12 @@ const LENGTH: Pen = Pen::dashed(VERMILION, 4.0, 12.0, 8.0);
 /// Draws the panel into `frame`.
 pub(super) fn draw<DB: DrawingBackend>(page: &Page<DB>, frame: Rect, record: &Record) -> Drawn<DB> {
     let energy = energy(record);
-    let length: Vec<_> = record.frames.iter().map(|frame| [frame.time, frame.length]).collect();
+    let mut length: Vec<_> = record.frames.iter().map(|frame| [frame.time, frame.length]).collect();
     let x = time_axis(energy.iter().chain(&length).map(|point| point[0]));
+    if let (Some(initial), Some(step)) = (length.first_mut(), energy.get(1)) {
+        // Frames are rarer than steps: up to the first one the length is that of the start.
+        initial[0] = initial[0].max(step[0]);
+    }
     // Time zero has no place on a logarithmic axis.
     let shown = |point: &&[f64; 2]| x.place(point[0]).is_finite();
     let y = Axis::fitted(energy.iter().filter(shown).map(|point| point[1]), 0.08);

@@ -35,7 +35,9 @@ class HistoryPanel {
     const right = Scale.around(rangeOf(record.length), 0.08);
     panel.axes(x, Scale.fitted(rangeOf(energy.value), 0.06), "time", "energy");
     panel.rightAxis(right, "length", colours.length);
-    panel.line(record.frames, (k) => [panel.across(record.time[k]), panel.up(record.length[k], right)],
+    // Frames are rarer than steps: up to the first one the length is that of the start.
+    const earliest = view.logTime ? this.start : 0;
+    panel.line(record.frames, (k) => [panel.across(Math.max(record.time[k], earliest)), panel.up(record.length[k], right)],
       { colour: colours.length, width: 2, dash: [7, 5] });
     panel.line(energy.time.length, (k) => [panel.across(energy.time[k]), panel.up(energy.value[k])],
       { colour: colours.energy, width: 2 });
