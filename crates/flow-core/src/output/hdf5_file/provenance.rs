@@ -5,6 +5,7 @@ use hdf5_metno::{File, H5Type, Location};
 
 use super::dataset::{building, text, write_text};
 use super::layout::{CAUSES, CONVENTIONS, COUNTERS};
+use super::numbers;
 use crate::output::StorageError;
 use crate::run::{Provenance, Record};
 
@@ -15,6 +16,7 @@ pub(super) fn write(file: &File, record: &Record) -> Result<(), StorageError> {
         write_text(file, name, value)?;
     }
     write_number(file, "text_checksum", &checksum(record))?;
+    write_number(file, numbers::NAME, &numbers::checksum(record))?;
     write_names(file, "energy_terms", &record.energy_terms)?;
     write_names(file, "densities", &record.densities)?;
     write_names(file, "fields", &record.fields)?;

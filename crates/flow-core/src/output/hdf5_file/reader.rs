@@ -12,6 +12,7 @@ use super::heaps::{broken_heap, has_wide_lengths};
 use super::layout::{
     CAUSES, CONVENTIONS, COUNTERS, FRAME_VALUES, NAMED_FIELDS, NAMED_VALUES, NODAL_FIELDS, STEP_VALUES,
 };
+use super::numbers;
 use super::provenance::{checksum, rejections_name};
 use super::seconds;
 use crate::output::{Operation, StorageError};
@@ -105,6 +106,12 @@ impl Content {
         }
         record.seconds = seconds::read(&self.file, &record.energy_terms)?;
         record.frames = self.frames(&record)?;
+        // Files from before this checksum do not have it.
+        if self.has_attribute(numbers::NAME)?
+            && self.number::<u32>(numbers::NAME)? != numbers::checksum(&record)
+        {
+            return Err(("its numbers".to_owned(), "the checksum differs".into()));
+        }
         Ok(record)
     }
 
@@ -188,15 +195,19 @@ impl Content {
     }
 
     fn provenance(&self) -> Result<Provenance, Failure> {
-        let names =
-            self.file.attr_names().map_err(|source| ("the names of its attributes".to_owned(), source))?;
-        let commit = names.iter().any(|name| name == "commit").then(|| self.text("commit"));
+        let commit = self.has_attribute("commit")?.then(|| self.text("commit"));
         Ok(Provenance {
             version: self.text("curveflow_version")?,
             commit: commit.transpose()?,
             machine: self.text("machine")?,
             citation: self.text("citation")?,
         })
+    }
+
+    fn has_attribute(&self, name: &str) -> Result<bool, Failure> {
+        let names = self.file.attr_names();
+        let names = names.map_err(|source| ("the names of its attributes".to_owned(), source))?;
+        Ok(names.iter().any(|found| found == name))
     }
 
     /// All values of a dataset, `expected` of them unless that is not known yet.
