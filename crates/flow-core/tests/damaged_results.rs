@@ -133,6 +133,21 @@ fn chance_never_makes_wrong_data() {
     }
 }
 
+/// Fletcher32 finds nothing wrong with zeros.
+#[test]
+fn numbers_that_became_zero_are_noticed() {
+    let scratch = Scratch::new("zeroed");
+    let record = synthetic::record(4, 64, &["protein"]);
+    let mut bytes = hdf5_file::to_bytes(&record).unwrap();
+    let numbers = record.frames.iter().flat_map(|frame| &frame.metric);
+    let chunk: Vec<u8> = numbers.flat_map(|number| number.to_le_bytes()).collect();
+    let start = bytes.windows(chunk.len()).position(|window| window == chunk).unwrap();
+    bytes[start..start + chunk.len() + 4].fill(0);
+    fs::write(&scratch.0, &bytes).unwrap();
+    let error = hdf5_file::read(&scratch.0).unwrap_err();
+    assert!(error.to_string().contains("damaged at its numbers"), "{error}");
+}
+
 /// The error of a whole file that `change` has changed.
 fn hostile(name: &str, change: impl FnOnce(&File)) -> (String, String) {
     let scratch = Scratch::new(name);

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::resolution::MOST_NODES;
 use super::scene::Scene;
 use super::setup_error::SetupError;
 use crate::flow::MetricRole;
@@ -19,10 +20,19 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// The fewest nodes that a scene may ask for.
+    const LEAST_NODES: usize = 8;
+
     /// `nodes` nodes, graded as the scene says; uniform if it leaves that to the program.
     #[must_use]
     pub fn of(nodes: usize) -> Self {
         Self { nodes, samples: None }
+    }
+
+    /// Whether a run can have so many nodes; a mesh that was read may have any number.
+    #[must_use]
+    pub fn is_possible(&self) -> bool {
+        (Self::LEAST_NODES..=MOST_NODES).contains(&self.nodes)
     }
 
     /// The grading in the gauge of `scene`; none if the nodes are uniform.
@@ -43,5 +53,16 @@ impl Mesh {
             (None, None) => return Ok(None),
         };
         Ok(Some(Arc::new(Grading::new(&samples)?)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn meshes_that_no_run_has_are_not_possible() {
+        let possible = [0, 1, 7, 8, 65_536, 65_537, usize::MAX].map(|nodes| Mesh::of(nodes).is_possible());
+        assert_eq!(possible, [false, false, false, true, true, false, false]);
     }
 }

@@ -142,6 +142,9 @@ impl Simulation {
         let turning_number = simulation.membrane.turning_number();
         simulation.gauges.skip(memory.switches);
         simulation.adaptation = Adaptation::of(simulation.gauges.scene());
+        if !memory.mesh.is_possible() {
+            return Err(foreign("the number of nodes"));
+        }
         if memory.counters.remaps > 0 {
             let built = simulation.gauges.build(&memory.mesh, turning_number)?;
             (simulation.membrane, simulation.diagnostics) = built;
