@@ -16,16 +16,27 @@ pub(super) fn checksum(record: &Record) -> u32 {
         for entry in FRAME_VALUES {
             add(&mut sum, &[*(entry.get)(frame)]);
         }
-        NAMED_VALUES.iter().for_each(|list| add(&mut sum, (list.get)(frame)));
-        NODAL_FIELDS.iter().for_each(|entry| add(&mut sum, (entry.get)(frame)));
+        for list in NAMED_VALUES {
+            add(&mut sum, (list.get)(frame));
+        }
+        for entry in NODAL_FIELDS {
+            add(&mut sum, (entry.get)(frame));
+        }
         add(&mut sum, frame.position.as_flattened());
-        NAMED_FIELDS.iter().flat_map(|list| (list.get)(frame)).for_each(|field| add(&mut sum, field));
+        for field in NAMED_FIELDS.iter().flat_map(|list| (list.get)(frame)) {
+            add(&mut sum, field);
+        }
     }
-    STEP_VALUES.iter().for_each(|entry| add(&mut sum, (entry.get)(&record.steps)));
-    sum.update(&record.steps.order);
-    record.steps.nodes.iter().for_each(|nodes| sum.update(&nodes.to_le_bytes()));
-    for counts in &record.steps.rejections {
-        CAUSES.iter().for_each(|cause| sum.update(&(cause.get)(counts).to_le_bytes()));
+    let steps = &record.steps;
+    for entry in STEP_VALUES {
+        add(&mut sum, (entry.get)(steps));
+    }
+    sum.update(&steps.order);
+    for nodes in &steps.nodes {
+        sum.update(&nodes.to_le_bytes());
+    }
+    for count in steps.rejections.iter().flat_map(|counts| CAUSES.iter().map(|cause| *(cause.get)(counts))) {
+        sum.update(&count.to_le_bytes());
     }
     sum.finalize()
 }
