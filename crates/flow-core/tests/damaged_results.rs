@@ -33,7 +33,7 @@ impl Drop for Scratch {
     }
 }
 
-/// Numbers without a pattern, the same in each run: SplitMix64.
+/// Numbers without a pattern, the same in each run: `SplitMix64`.
 struct Chance(u64);
 
 impl Chance {
@@ -77,7 +77,7 @@ const DAMAGES: [(&str, Damage); 8] = [
     }),
     ("cut", |bytes, chance| bytes.truncate(chance.below(bytes.len()))),
     ("junk appended", |bytes, chance| {
-        for _ in 0..1 + chance.below(PAGE) {
+        for _ in 0..=chance.below(PAGE) {
             bytes.push(chance.below(256) as u8);
         }
     }),
