@@ -94,7 +94,7 @@ impl Review {
                 ["curveflow", command, rest @ ..] => self.command(command, rest, code),
                 words if words.contains(&"cargo") => self.cargo(words, code),
                 [option, ..] if option.starts_with("--") => {
-                    self.lone_option(option.trim_end_matches(','), words.get(1), code)
+                    self.lone_option(option.trim_end_matches(','), words.get(1), code);
                 }
                 [key] | [key, "=", ..] => self.key(key.split('=').next().unwrap()),
                 _ => {}
