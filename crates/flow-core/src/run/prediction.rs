@@ -32,8 +32,9 @@ pub struct Prediction {
 const TRIAL_STEPS: u64 = 12;
 /// Vectors of the size of the state that the solver holds: history, Krylov basis, scratch.
 const SOLVER_VECTORS: f64 = 80.0;
-/// Steps per decade of time at tolerance 1e-5 and order 5.
-const STEPS_PER_DECADE: f64 = 35.0;
+/// Steps per decade of time at tolerance 1e-5, and the power of the tolerance by which they grow.
+const STEPS_PER_DECADE: f64 = 20.0;
+const POWER: f64 = 0.16;
 
 /// Predicts a run of `scene`.
 ///
@@ -41,15 +42,15 @@ const STEPS_PER_DECADE: f64 = 35.0;
 /// [`SetupError`] if the scene makes no initial state.
 pub fn predict(scene: &Scene) -> Result<Prediction, SetupError> {
     let mut simulation = Simulation::new(scene)?;
+    let layout = simulation.layout();
     while simulation.counters().steps < TRIAL_STEPS && simulation.step(&mut Quiet) {}
     let steps_taken = simulation.counters().steps.max(1) as f64;
     let time = simulation.time().max(f64::MIN_POSITIVE);
-    let layout = simulation.layout();
     let record = simulation.into_record();
     let most_nodes = most_nodes(scene, layout.nodes(), record.frames[0].length);
     let file_bytes = frame_bytes(scene, Layout::new(most_nodes, layout.densities()), record.fields.len());
     let decades = (scene.time.end / time).log10().max(0.0);
-    let finer = (1e-5 / scene.accuracy.tolerance).powf(0.2);
+    let finer = (1e-5 / scene.accuracy.tolerance).powf(POWER);
     Ok(Prediction {
         nodes: layout.nodes(),
         most_nodes,
