@@ -4,9 +4,11 @@ use curveflow_tests::shipped;
 use flow_core::run::tradeoff::{Ladder, tradeoff};
 use flow_core::run::{Quiet, Scene};
 
-/// Least and largest ratio of the error that is measured to the one asked for.
-const LEAST: f64 = 0.03;
-const MOST: f64 = 10.0;
+/// Least and largest ratio of the error that is measured to the one asked for: 0.034 and 9.8 where the table of
+/// `benches/README.md` was made. Rounding tips step sizes, and a flow that multiplies errors makes much of that, so there is a
+/// factor of two on either side.
+const LEAST: f64 = 0.015;
+const MOST: f64 = 20.0;
 
 /// The largest error of curve, curvature, densities, energy and length, halfway and at the end, against a run a hundred times
 /// tighter than the tightest on as many nodes as that needs.
