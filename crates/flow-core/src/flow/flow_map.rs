@@ -81,6 +81,11 @@ impl FlowMap {
     /// derivative by it is the last spectrum, and that by its mean `by_length`.
     pub fn force(&mut self, at: &CurveFields, gradient: &[Complex64], by_length: f64, force: &mut [f64]) {
         self.stretching(at, gradient, by_length, force);
+        self.complete_force(at, gradient, force);
+    }
+
+    /// The force where `force` holds the [`FlowMap::stretching`].
+    pub fn complete_force(&mut self, at: &CurveFields, gradient: &[Complex64], force: &mut [f64]) {
         multiply(force, at.at_nodes(0));
         let Workspace { grid, derivative, graded, values, spectrum, .. } = &mut self.work;
         let p = &gradient[..grid.modes()];

@@ -7,6 +7,7 @@ use super::exponential::ExponentialMemory;
 use super::history::MOST_POINTS;
 use super::integrals::Integrals;
 use super::newton::Factorisation;
+use super::pace::Pace;
 
 /// Past states, integrals, step size and order; the rest is computed anew in every step.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -19,12 +20,7 @@ pub struct Memory {
     pub factorisation: Factorisation,
     /// What the exponential method knows besides, if it is the one that goes on.
     pub exponential: Option<ExponentialMemory>,
-    pub(super) order: usize,
-    pub(super) last_order: usize,
-    pub(super) step: f64,
-    pub(super) steps_at_order: usize,
-    pub(super) accepted: u64,
-    pub(super) failures: u32,
+    pub(super) pace: Pace,
 }
 
 impl Memory {
@@ -36,8 +32,8 @@ impl Memory {
         let points = self.points.len();
         let orders = 1..MOST_POINTS;
         let enough = match &self.exponential {
-            Some(own) => own.fits(points, size) && points >= self.order,
-            None => points > self.order.max(self.last_order) && self.order < MOST_POINTS - 1,
+            Some(own) => own.fits(points, size) && points >= self.pace.order,
+            None => points > self.pace.order.max(self.pace.last_order) && self.pace.order < MOST_POINTS - 1,
         };
         falling
             && self.integrals.is_sound()
@@ -46,11 +42,11 @@ impl Memory {
                 .points
                 .iter()
                 .all(|(time, state)| time.is_finite() && state.len() == size && finite(state))
-            && orders.contains(&self.order)
-            && orders.contains(&self.last_order)
+            && orders.contains(&self.pace.order)
+            && orders.contains(&self.pace.last_order)
             && enough
-            && self.step > 0.0
-            && self.step.is_finite()
+            && self.pace.step > 0.0
+            && self.pace.step.is_finite()
     }
 
     /// For the implicit method to go on from here; from the start it needs a state before.
@@ -58,12 +54,11 @@ impl Memory {
     pub fn implicit(mut self) -> Self {
         let Some(own) = self.exponential.take() else { return self };
         if let ([(time, state)], [rate, ..]) = (&self.points[..], &own.rates[..]) {
-            let before = state.iter().zip(rate).map(|(y, rate)| y - self.step * rate).collect();
-            self.points.push((time - self.step, before));
+            let before = state.iter().zip(rate).map(|(y, rate)| y - self.pace.step * rate).collect();
+            self.points.push((time - self.pace.step, before));
         }
         let most = bdf::HIGHEST_ORDER.min(self.points.len() - 1);
-        (self.order, self.last_order) = (self.order.min(most), self.last_order.min(most));
-        self.steps_at_order = 0;
+        self.pace = Pace { steps_at_order: 0, ..self.pace.of_order_at_most(most) };
         self
     }
 }

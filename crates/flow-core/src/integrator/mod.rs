@@ -12,6 +12,7 @@ mod linear_part;
 mod memory;
 mod multistep;
 mod newton;
+mod pace;
 mod rest;
 mod statistics;
 mod stopwatch;

@@ -4,6 +4,7 @@ use super::bdf::Bdf;
 use super::exponential::{Exponential, ExponentialMemory};
 use super::memory::Memory;
 use super::newton::Factorisation;
+use super::pace::Pace;
 use super::{Counters, ErrorNorm, INTEGRALS, Integrals, LinearPart, Problem, Rejection, Stepper};
 
 /// Either of the two multistep methods. Both hold past states, so that the change from one to the other costs nothing.
@@ -44,12 +45,7 @@ impl Multistep {
             points: vec![(integrals.time(), y.to_vec())],
             integrals,
             factorisation: Factorisation::default(),
-            order: 1,
-            last_order: 1,
-            step: first_step(tolerance, norm.norm(&rate)),
-            steps_at_order: 0,
-            accepted: 0,
-            failures: 0,
+            pace: Pace::starting(first_step(tolerance, norm.norm(&rate))),
             exponential: Some(ExponentialMemory::start(rate, part)),
         };
         Self::resume(problem, memory, tolerance)

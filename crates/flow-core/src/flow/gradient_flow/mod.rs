@@ -200,7 +200,14 @@ impl GradientFlow {
 
     /// Spectral rate at the state of the linearisation; call right after [`GradientFlow::spectral_linearise`].
     pub fn frozen_rate(&mut self, rate: &mut [f64]) {
-        self.descend(true);
+        if self.energy.depends_on_positions() {
+            self.descend(true); // the tension is left out there
+        } else {
+            self.force.copy_from_slice(&self.frozen_stretching);
+            self.map.complete_force(&self.frozen, &self.gradient.spectra, &mut self.force);
+            let mobility = self.frozen_mobility.as_mut();
+            drive(mobility, self.frozen_fault, &self.frozen, &self.force, &mut self.velocity);
+        }
         self.write_rates(true, rate);
     }
 

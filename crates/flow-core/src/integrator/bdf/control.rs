@@ -4,12 +4,6 @@ use super::{Bdf, HIGHEST_ORDER};
 
 /// Safety factors on the error of order k − 1, k, k + 1: a change of order must pay.
 const BIAS: [f64; 3] = [4.0, 4.0, 6.0];
-/// Growth below this factor is not worth a new step size.
-const LEAST_GROWTH: f64 = 1.2;
-/// Growth of a step at most.
-pub(super) const MOST_GROWTH: f64 = 2.5;
-const FIRST_GROWTH: f64 = 1e4;
-
 impl Bdf {
     /// Estimate of the local error of order `order` at constant step: ‖h^{k+1} y^{(k+1)}‖/(k + 1).
     fn error_of_order(&mut self, order: usize) -> f64 {
@@ -21,7 +15,7 @@ impl Bdf {
         }
         let mut factor = 1.0 / (order + 1) as f64;
         for back in 0..=order {
-            factor *= self.step / (time - self.history.times()[back]) * (back + 1) as f64;
+            factor *= self.pace.step / (time - self.history.times()[back]) * (back + 1) as f64;
         }
         factor * self.norm.norm(&self.difference)
     }
@@ -33,10 +27,10 @@ impl Bdf {
 
     /// Order and step size after an accepted candidate (which is not yet in the history).
     pub(super) fn plan(&mut self) {
-        let order = self.order;
+        let order = self.pace.order;
         let error = self.error_of_order(order);
         let mut best = (order, self.growth(error, order, BIAS[1]));
-        if self.steps_at_order > order {
+        if self.pace.steps_at_order > order {
             if order > 1 {
                 let lower = self.error_of_order(order - 1);
                 let growth = self.growth(lower, order - 1, BIAS[0]);
@@ -52,19 +46,6 @@ impl Bdf {
                 }
             }
         }
-        let most = if self.accepted == 0 { FIRST_GROWTH } else { MOST_GROWTH };
-        let mut growth = best.1.min(most);
-        if self.failures > 0 {
-            growth = growth.min(1.0);
-        }
-        if growth > 1.0 && growth < LEAST_GROWTH {
-            growth = 1.0;
-            best.0 = order;
-        }
-        if best.0 != order {
-            self.steps_at_order = 0;
-        }
-        self.order = best.0;
-        self.step *= growth.max(0.5);
+        self.pace.go_on(best, |factor| factor);
     }
 }

@@ -12,6 +12,7 @@ use super::integrals::Integrals;
 use super::memory::Memory;
 use super::multistep::first_step;
 use super::newton::{Factorisation, NewtonKrylov, NewtonOutcome, Stage};
+use super::pace::Pace;
 use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
 
 /// Highest order of the formulas that are stable enough.
@@ -37,12 +38,7 @@ pub struct Bdf {
     norm: ErrorNorm,
     newton: NewtonKrylov,
     tolerance: f64,
-    order: usize,
-    last_order: usize,
-    step: f64,
-    steps_at_order: usize,
-    accepted: u64,
-    failures: u32,
+    pace: Pace,
     predicted: Vec<f64>,
     constant: Vec<f64>,
     candidate: Vec<f64>,
@@ -87,12 +83,7 @@ impl Bdf {
             integrals,
             factorisation: Factorisation::default(),
             exponential: None,
-            order: 1,
-            last_order: 1,
-            step,
-            steps_at_order: 0,
-            accepted: 0,
-            failures: 0,
+            pace: Pace::starting(step),
         };
         Self::resume(problem, memory, tolerance)
     }
@@ -105,12 +96,7 @@ impl Bdf {
             integrals: self.integrals.clone(),
             factorisation: self.newton.factorisation(),
             exponential: None,
-            order: self.order,
-            last_order: self.last_order,
-            step: self.step,
-            steps_at_order: self.steps_at_order,
-            accepted: self.accepted,
-            failures: self.failures,
+            pace: self.pace,
         }
     }
 
@@ -128,12 +114,7 @@ impl Bdf {
             norm: ErrorNorm::new(problem),
             newton,
             tolerance: local_tolerance(tolerance),
-            order: memory.order,
-            last_order: memory.last_order,
-            step: memory.step,
-            steps_at_order: memory.steps_at_order,
-            accepted: memory.accepted,
-            failures: memory.failures,
+            pace: memory.pace,
             predicted: vec![0.0; size],
             constant: vec![0.0; size],
             candidate: vec![0.0; size],
@@ -142,11 +123,11 @@ impl Bdf {
     }
 
     fn leading_coefficient(&self) -> f64 {
-        (1..=self.order).map(|i| 1.0 / i as f64).sum()
+        (1..=self.pace.order).map(|i| 1.0 / i as f64).sum()
     }
 
     fn candidate_time(&self) -> f64 {
-        self.history.times()[0] + self.step
+        self.history.times()[0] + self.pace.step
     }
 
     fn predictor(&self, order: usize, skip: usize) -> Weights {
@@ -156,9 +137,9 @@ impl Bdf {
     /// Factor between ‖y − ỹ‖ and the local error of the fixed-leading-coefficient formula.
     fn error_factor(&self) -> f64 {
         let time = self.candidate_time();
-        let alpha = |back: usize| self.step / (time - self.history.times()[back]);
-        let last = alpha(self.order);
-        let alpha_0: f64 = -(0..self.order).map(alpha).sum::<f64>();
+        let alpha = |back: usize| self.pace.step / (time - self.history.times()[back]);
+        let last = alpha(self.pace.order);
+        let alpha_0: f64 = -(0..self.pace.order).map(alpha).sum::<f64>();
         let alpha_s = -self.leading_coefficient();
         last.max((last + alpha_s - alpha_0).abs())
     }
@@ -178,23 +159,23 @@ impl Stepper for Bdf {
     }
 
     fn step_size(&self) -> f64 {
-        self.step
+        self.pace.step
     }
 
     fn limit_step_size(&mut self, largest: f64) {
-        self.step = self.step.min(largest);
+        self.pace.step = self.pace.step.min(largest);
     }
 
     #[allow(clippy::misnamed_getters)] // the order of the last step; `order` is that of the next
     fn order(&self) -> usize {
-        self.last_order
+        self.pace.last_order
     }
 
     fn attempt(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> Result<(), Rejection> {
         self.norm.rescale(problem, self.history.state(0));
-        let weights = self.predictor(self.order, 0);
-        let points = self.order + 1;
-        let gamma = self.step / self.leading_coefficient();
+        let weights = self.predictor(self.pace.order, 0);
+        let points = self.pace.order + 1;
+        let gamma = self.pace.step / self.leading_coefficient();
         self.history.combine(&weights.value, points, &mut self.predicted);
         let shifted: [f64; MOST_POINTS] =
             std::array::from_fn(|i| weights.value[i] - gamma * weights.derivative[i]);
@@ -203,8 +184,8 @@ impl Stepper for Bdf {
         let outcome =
             self.newton.solve(problem, &self.norm, &stage, &self.predicted, &mut self.candidate, counters);
         if outcome == NewtonOutcome::Failed {
-            self.failures += 1;
-            self.step *= 0.25;
+            self.pace.failures += 1;
+            self.pace.step *= 0.25;
             return Err(Rejection::Solver);
         }
         for ((difference, y), predicted) in
@@ -214,20 +195,15 @@ impl Stepper for Bdf {
         }
         let error = self.error_factor() * self.norm.norm(&self.difference);
         if error > self.tolerance {
-            self.failures += 1;
-            let growth = self.growth(error, self.order, 2.0);
-            self.step *= growth.clamp(0.2, 0.9);
-            if self.failures > 2 && self.order > 1 {
-                self.order -= 1;
-                self.steps_at_order = 0;
-            }
+            let growth = self.growth(error, self.pace.order, 2.0);
+            self.pace.fail(growth.clamp(0.2, 0.9));
             return Err(Rejection::Error);
         }
         Ok(())
     }
 
     fn polish(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> bool {
-        let gamma = self.step / self.leading_coefficient();
+        let gamma = self.pace.step / self.leading_coefficient();
         let stage = Stage { gamma, constant: &self.constant, goal: NEWTON_SHARE * self.tolerance };
         self.newton.correct(problem, &self.norm, &stage, &mut self.candidate, counters).is_some()
     }
@@ -237,14 +213,12 @@ impl Stepper for Bdf {
     }
 
     fn hold(&mut self, size: f64) {
-        self.step = size;
+        self.pace.step = size;
         let time = self.candidate_time();
         self.candidate.copy_from_slice(self.history.state(0));
         self.history.push(time, &self.candidate);
         self.integrals.hold(time);
-        (self.order, self.last_order, self.steps_at_order, self.failures) = (1, 1, 0, 0);
-        self.accepted += 1;
-        self.step *= control::MOST_GROWTH;
+        self.pace.hold();
     }
 
     fn candidate(&mut self) -> &mut [f64] {
@@ -252,27 +226,19 @@ impl Stepper for Bdf {
     }
 
     fn refuse(&mut self) {
-        self.failures += 1;
-        self.step *= 0.5;
-        if self.failures > 2 && self.order > 1 {
-            self.order -= 1;
-            self.steps_at_order = 0;
-        }
+        self.pace.fail(0.5);
     }
 
     fn accept(&mut self, _: &mut dyn Problem, integral_rates: [f64; INTEGRALS]) {
         let time = self.candidate_time();
-        self.last_order = self.order;
-        self.steps_at_order += 1;
+        self.pace.accept();
         self.plan();
         self.history.push(time, &self.candidate);
         self.integrals.push(time, integral_rates);
-        self.accepted += 1;
-        self.failures = 0;
     }
 
     fn interpolate(&self, time: f64, y: &mut [f64]) -> [f64; INTEGRALS] {
-        let points = (self.last_order + 1).min(self.history.len());
+        let points = (self.pace.last_order + 1).min(self.history.len());
         let weights = lagrange(time, &self.history.times()[..points]);
         self.history.combine(&weights.value, points, y);
         self.integrals.at(time)

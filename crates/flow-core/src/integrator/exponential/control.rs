@@ -5,11 +5,6 @@ use crate::integrator::Rejection;
 
 /// Safety factors on the error of order k − 1, k, k + 1: a change of order must pay.
 const BIAS: [f64; 3] = [3.0, 2.0, 3.0];
-/// Growth below this factor is not worth new moments.
-const LEAST_GROWTH: f64 = 1.2;
-/// Growth of a step at most.
-pub(super) const MOST_GROWTH: f64 = 2.5;
-const FIRST_GROWTH: f64 = 1e4;
 /// Contraction of the corrector above which what it leaves out, the stiffness of N, limits the steps.
 pub(super) const STIFF: f64 = 0.4;
 /// What a step that is limited so counts, over what one that is not takes away again: at rest, where both corrections are
@@ -35,13 +30,8 @@ impl Exponential {
 
     /// After an attempt that was thrown away.
     pub(super) fn fail(&mut self, factor: f64) {
-        self.failures += 1;
         self.limited += LIMITED;
-        self.step *= on_scale(factor);
-        if self.failures > 2 && self.order > 1 {
-            self.order -= 1;
-            self.steps_at_order = 0;
-        }
+        self.pace.fail(on_scale(factor));
     }
 
     /// What a second correction would change of the candidate, over what the first one did.
@@ -62,17 +52,15 @@ impl Exponential {
 
     /// Whether the error of the candidate is below the tolerance; what it would be at other orders.
     pub(super) fn judge(&mut self) -> Result<(), Rejection> {
-        let order = self.order;
+        let order = self.pace.order;
         self.differences = [None; MOST_POINTS + 1];
         self.differences[order] = Some(self.difference(order));
         self.take_difference(order + 1);
         let error = self.error(order).unwrap_or(f64::NAN);
-        self.errors = [None, Some(error), None];
         if error <= self.tolerance {
-            if self.steps_at_order >= order {
+            if self.pace.steps_at_order >= order {
                 self.take_difference(order - 1);
                 self.take_difference(order + 2);
-                self.errors = [self.error(order - 1), Some(error), self.error(order + 1)];
             }
             return Ok(());
         }
@@ -98,28 +86,18 @@ impl Exponential {
 
     /// Order and size of the step after an accepted candidate.
     pub(super) fn plan(&mut self, contraction: f64) {
-        let order = self.order;
-        let mut best = (order, 0.0);
-        for (change, (error, bias)) in self.errors.into_iter().zip(BIAS).enumerate() {
-            let Some(error) = error else { continue };
-            let growth = self.growth(error, order + change - 1, bias);
-            if growth > best.1 {
-                best = (order + change - 1, growth);
+        let order = self.pace.order;
+        let mut best = (order, self.error(order).map_or(0.0, |error| self.growth(error, order, BIAS[1])));
+        if self.pace.steps_at_order > order {
+            for (other, bias) in [(order - 1, BIAS[0]), (order + 1, BIAS[2])] {
+                let Some(error) = self.error(other) else { continue };
+                let growth = self.growth(error, other, bias);
+                if growth > best.1 {
+                    best = (other, growth);
+                }
             }
         }
-        let most = if self.accepted == 0 { FIRST_GROWTH } else { MOST_GROWTH };
-        let mut growth = best.1.min(most).min(MOST_CONTRACTION / contraction);
-        if self.failures > 0 {
-            growth = growth.min(1.0);
-        }
-        if growth > 1.0 && growth < LEAST_GROWTH {
-            growth = 1.0;
-            best.0 = order;
-        }
-        if best.0 != order {
-            self.steps_at_order = 0;
-        }
-        self.order = best.0;
-        self.step *= on_scale(growth.max(0.5));
+        best.1 = best.1.min(MOST_CONTRACTION / contraction);
+        self.pace.go_on(best, on_scale);
     }
 }

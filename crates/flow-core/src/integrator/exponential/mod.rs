@@ -15,6 +15,7 @@ use super::error_norm::ErrorNorm;
 use super::history::{History, MOST_POINTS, lagrange};
 use super::integrals::Integrals;
 use super::linear_part::LinearPart;
+use super::pace::Pace;
 use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
 use crate::geometry::vectors::{add_scaled, add_scaled_product};
 pub use memory::ExponentialMemory;
@@ -45,17 +46,10 @@ pub struct Exponential {
     /// N = f − Λy at the states in the eigenbasis, newest first; the newest states there.
     rests: Vec<Vec<f64>>,
     bases: [Vec<f64>; 2],
-    order: usize,
-    last_order: usize,
-    step: f64,
-    steps_at_order: usize,
-    accepted: u64,
-    failures: u32,
+    pace: Pace,
     limited: u32,
     /// What the last n values of N change instead of n − 1, where it is known.
     differences: [Option<f64>; MOST_POINTS + 1],
-    /// Estimates of the error of the candidate, and of those of an order less and more, where they are known.
-    errors: [Option<f64>; 3],
     predicted: Vec<f64>,
     candidate: Vec<f64>,
     /// N at the prediction, and what it differs by from what the last values make of it.
@@ -68,9 +62,7 @@ impl Exponential {
     /// θ of the last `points` states.
     fn nodes(&self, points: usize) -> [f64; MOST_MOMENTS] {
         let times = self.states.times();
-        let mut nodes = [0.0; MOST_MOMENTS];
-        nodes.iter_mut().zip(&times[..points]).for_each(|(node, time)| *node = (time - times[0]) / self.step);
-        nodes
+        nodes(&times[..points], times[0], self.pace.step)
     }
 
     /// Takes Λ anew from the last state if it has aged.
@@ -107,7 +99,7 @@ impl Exponential {
 
     /// The prediction; `scratch` is then what the last values make of N there.
     fn predict(&mut self) {
-        let points = self.order;
+        let points = self.pace.order;
         let basis = lagrange_basis(&self.nodes(points)[..points]);
         let Self { predicted, predicted_rest: extrapolated, scratch, moments, .. } = self;
         extrapolated.fill(0.0);
@@ -118,7 +110,7 @@ impl Exponential {
             for (rest, polynomial) in self.rests.iter().zip(&basis[..points]) {
                 add_scaled(scratch, polynomial[i], rest);
             }
-            add_scaled_product(predicted, self.step, moments.values(i), scratch);
+            add_scaled_product(predicted, self.pace.step, moments.values(i), scratch);
             add_scaled(extrapolated, 1.0, scratch);
         }
         std::mem::swap(scratch, extrapolated);
@@ -131,7 +123,7 @@ impl Exponential {
         for (i, coefficient) in polynomial[..=degree].iter().enumerate() {
             add_scaled_product(
                 &mut self.scratch,
-                self.step * coefficient,
+                self.pace.step * coefficient,
                 self.moments.values(i),
                 &self.missed,
             );
@@ -150,6 +142,13 @@ impl Exponential {
         self.integrate(&of_last_point(&nodes[..points]), points);
         self.norm.norm(&self.scratch)
     }
+}
+
+/// θ of `times`, in steps of `size` from `start`.
+fn nodes(times: &[f64], start: f64, size: f64) -> [f64; MOST_MOMENTS] {
+    let mut nodes = [0.0; MOST_MOMENTS];
+    nodes.iter_mut().zip(times).for_each(|(node, time)| *node = (time - start) / size);
+    nodes
 }
 
 /// `rest` = N of the state `y` with the rate `f` in the eigenbasis, and `base` = y there.
@@ -175,23 +174,23 @@ impl Stepper for Exponential {
     }
 
     fn step_size(&self) -> f64 {
-        self.step
+        self.pace.step
     }
 
     fn limit_step_size(&mut self, largest: f64) {
-        self.step = self.step.min(largest);
+        self.pace.step = self.pace.step.min(largest);
     }
 
     /// That of the corrector.
     #[allow(clippy::misnamed_getters)] // the order of the last step; `order` is that of the next
     fn order(&self) -> usize {
-        self.last_order + 1
+        self.pace.last_order + 1
     }
 
     fn attempt(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> Result<(), Rejection> {
         self.renew(problem, counters);
         self.norm.rescale(problem, self.states.state(0));
-        self.moments.set(self.step, self.part.rates(), (self.order + 3).min(MOST_MOMENTS));
+        self.moments.set(self.pace.step, self.part.rates(), (self.pace.order + 3).min(MOST_MOMENTS));
         self.predict();
         problem.rate(&self.predicted, &mut self.candidate);
         counters.right_hand_sides += 1;
@@ -199,7 +198,7 @@ impl Stepper for Exponential {
         std::mem::swap(missed, scratch); // what the last values make of N
         decompose(part, predicted, candidate, predicted_rest, scratch);
         missed.iter_mut().zip(&*predicted_rest).for_each(|(missed, rest)| *missed = rest - *missed);
-        self.integrate(&of_new_value(&self.nodes(self.order)[..self.order]), self.order);
+        self.integrate(&of_new_value(&self.nodes(self.pace.order)[..self.pace.order]), self.pace.order);
         for ((y, predicted), correction) in self.candidate.iter_mut().zip(&self.predicted).zip(&self.scratch)
         {
             *y = predicted + correction;
@@ -212,11 +211,11 @@ impl Stepper for Exponential {
     }
 
     fn gain(&self, integral_rates: [f64; INTEGRALS]) -> [f64; INTEGRALS] {
-        self.integrals.gain(self.time() + self.step, integral_rates)
+        self.integrals.gain(self.time() + self.pace.step, integral_rates)
     }
 
     fn hold(&mut self, size: f64) {
-        self.step = size;
+        self.pace.step = size;
         let time = self.time() + size;
         self.candidate.copy_from_slice(self.states.state(0));
         self.states.push(time, &self.candidate);
@@ -224,9 +223,7 @@ impl Stepper for Exponential {
         self.rates.push(time, &self.scratch);
         self.decompose();
         self.integrals.hold(time);
-        (self.order, self.last_order, self.steps_at_order, self.failures) = (1, 1, 0, 0);
-        self.accepted += 1;
-        self.step *= control::MOST_GROWTH;
+        self.pace.hold();
     }
 
     fn refuse(&mut self) {
@@ -234,9 +231,8 @@ impl Stepper for Exponential {
     }
 
     fn accept(&mut self, problem: &mut dyn Problem, integral_rates: [f64; INTEGRALS]) {
-        let time = self.time() + self.step;
-        self.last_order = self.order;
-        self.steps_at_order += 1;
+        let time = self.time() + self.pace.step;
+        self.pace.accept();
         self.rests.rotate_right(1);
         self.bases.rotate_right(1);
         problem.finished_rate(&self.candidate, &mut self.scratch);
@@ -247,9 +243,7 @@ impl Stepper for Exponential {
         self.plan(contraction);
         self.states.push(time, &self.candidate);
         self.integrals.push(time, integral_rates);
-        self.accepted += 1;
         self.part_age += 1;
-        self.failures = 0;
         self.limited =
             if contraction > control::STIFF { self.limited + 1 } else { self.limited.saturating_sub(1) };
     }
@@ -257,16 +251,14 @@ impl Stepper for Exponential {
     /// The formula of the step itself, with the values of N at its end and before.
     fn interpolate(&self, time: f64, y: &mut [f64]) -> [f64; INTEGRALS] {
         let times = self.states.times();
-        let points = (self.last_order + 1).min(self.states.len());
+        let points = (self.pace.last_order + 1).min(self.states.len());
         // There is no polynomial yet, or nothing to be integrated.
         if points < 2 || time <= times[1] {
             y.copy_from_slice(self.states.state(usize::from(points > 1)));
             return self.integrals.at(time);
         }
         let size = time - times[1];
-        let mut nodes = [0.0; MOST_MOMENTS];
-        nodes.iter_mut().zip(&times[..points]).for_each(|(node, at)| *node = (at - times[1]) / size);
-        let basis = lagrange_basis(&nodes[..points]);
+        let basis = lagrange_basis(&nodes(&times[..points], times[1], size)[..points]);
         let (mut moments, mut weights, mut last, mut decay) =
             ([0.0; MOST_MOMENTS], [0.0; MOST_MOMENTS], f64::NAN, 1.0);
         for (entry, (y, rate)) in y.iter_mut().zip(self.part.rates()).enumerate() {
