@@ -1,7 +1,7 @@
 //! Weights of residuals r = b − (I − γJ)x, between the two that are of interest.
 //!
 //! A residual r of a stiff mode with symbol 1 + γσ is an error r/(1 + γσ) of the state, but an error r/γ of the rate,
-//! which enters the dissipation. (1 + γσ)^{−1/4} keeps both small and does not ask for more. See `THEORY.md`, eq. (I3).
+//! which enters the dissipation. (1 + γσ)^{−3/8} keeps both small and does not ask for more. See `THEORY.md`, eq. (I3).
 
 use super::super::gradient_flow::GradientFlow;
 use super::fourier::mobility_symbol;
@@ -48,7 +48,8 @@ impl ResidualWeights {
             let (weights, _) = self.weights[entries].as_chunks_mut::<2>();
             // A loop of its own, so that the roots are taken in whole vector registers.
             for ((inverse, weight), stiffness) in inverses.iter_mut().zip(weights).zip(&self.stiffness) {
-                let root = (1.0 + stiffness).sqrt().sqrt();
+                let quarter = (1.0 + stiffness).sqrt().sqrt();
+                let root = quarter * quarter.sqrt();
                 *inverse = [root; 2];
                 *weight = [1.0 / root; 2];
             }
