@@ -38,6 +38,8 @@ const WIDTH: usize = 14;
 const SHAPE: f64 = 2.3 * WIDTH as f64;
 /// Points of the trapezoidal rule for the coefficients of the kernel: exact to rounding.
 const QUADRATURE: usize = 40;
+/// Modes after which the waves of that rule are computed afresh.
+const EXACT: usize = 32;
 
 /// Scattered parameters at which trigonometric polynomials are evaluated, in O(n log n).
 ///
@@ -60,7 +62,22 @@ impl ScatteredPoints {
     #[must_use]
     pub fn new(nodes: usize, places: &[f64]) -> Self {
         let fine = PeriodicGrid::new((2 * nodes).max(2 * WIDTH));
-        let count = fine.nodes() as f64;
+        let mut points = Self {
+            nodes,
+            deconvolution: deconvolution(nodes, fine.nodes()),
+            points: Vec::with_capacity(places.len()),
+            spectrum: vec![Complex64::default(); fine.modes()],
+            values: vec![0.0; fine.nodes()],
+            fine,
+        };
+        points.move_to(places);
+        points
+    }
+
+    /// Takes other parameters.
+    pub fn move_to(&mut self, places: &[f64]) {
+        let nodes = self.fine.nodes();
+        let count = nodes as f64;
         let weights = |s: &f64| {
             let place = s.rem_euclid(1.0) * count;
             let first = (place - 0.5 * WIDTH as f64).ceil();
@@ -68,28 +85,10 @@ impl ScatteredPoints {
                 let z = (first + i as f64 - place) / (0.5 * WIDTH as f64);
                 (SHAPE * ((1.0 - z * z).max(0.0).sqrt() - 1.0)).exp()
             });
-            (first.rem_euclid(count) as usize % fine.nodes(), weights)
+            (first.rem_euclid(count) as usize % nodes, weights)
         };
-        // ∫ e^{β(√(1−z²) − 1)} cos kz dz with z = sin t, over half of the kernel, twice.
-        let points: [(f64, f64); QUADRATURE] = std::array::from_fn(|i| {
-            let t = (i as f64 + 0.5) / QUADRATURE as f64 * FRAC_PI_2;
-            (
-                t.sin(),
-                WIDTH as f64 * FRAC_PI_2 / QUADRATURE as f64 * t.cos() * (SHAPE * (t.cos() - 1.0)).exp(),
-            )
-        });
-        let coefficient = |mode: usize| -> f64 {
-            let wave = PI * WIDTH as f64 * mode as f64 / count;
-            points.iter().map(|(z, weight)| weight * (wave * z).cos()).sum()
-        };
-        Self {
-            nodes,
-            deconvolution: (0..=nodes / 2).map(|mode| 1.0 / coefficient(mode)).collect(),
-            points: places.iter().map(weights).collect(),
-            spectrum: vec![Complex64::default(); fine.modes()],
-            values: vec![0.0; fine.nodes()],
-            fine,
-        }
+        self.points.clear();
+        self.points.extend(places.iter().map(weights));
     }
 
     /// Values at the points of the polynomial with the coefficients `spectrum`.
@@ -108,7 +107,31 @@ impl ScatteredPoints {
     }
 }
 
-/// Passes of Newton's method; the start is within the square of a node distance.
+/// One over the coefficients of the kernel on a grid of `fine` nodes, for the modes of one of `nodes`.
+fn deconvolution(nodes: usize, fine: usize) -> Vec<f64> {
+    // ∫ e^{β(√(1−z²) − 1)} cos kz dz with z = sin t, over half of the kernel, twice.
+    let mut points = [0.0; QUADRATURE];
+    let mut shares = [0.0; QUADRATURE];
+    for (i, (point, share)) in points.iter_mut().zip(&mut shares).enumerate() {
+        let t = (i as f64 + 0.5) / QUADRATURE as f64 * FRAC_PI_2;
+        *point = PI * WIDTH as f64 * t.sin() / fine as f64;
+        *share = WIDTH as f64 * FRAC_PI_2 / QUADRATURE as f64 * t.cos() * (SHAPE * (t.cos() - 1.0)).exp();
+    }
+    let turns = points.map(Complex64::cis);
+    let mut waves = [Complex64::default(); QUADRATURE];
+    let coefficient = |mode: usize| {
+        // A cosine costs as much as the turns of many modes, but rounding must not gather.
+        if mode.is_multiple_of(EXACT) {
+            waves = points.map(|point| Complex64::cis(mode as f64 * point));
+        }
+        let sum: f64 = waves.iter().zip(&shares).map(|(wave, share)| wave.re * share).sum();
+        waves.iter_mut().zip(&turns).for_each(|(wave, turn)| *wave *= turn);
+        1.0 / sum
+    };
+    (0..=nodes / 2).map(coefficient).collect()
+}
+
+/// Passes of Newton's method; the start is within the fourth power of a node distance.
 const MOST_PASSES: usize = 8;
 /// Error of the fraction of the arc length that the next pass brings to rounding.
 const FOUND: f64 = 1e-8;
@@ -128,15 +151,22 @@ pub fn parameters_of_fractions(grading: &Grading, fractions: &[f64]) -> Vec<f64>
         [right.max(1) - 1, right.max(1)].map(|i| i as f64 / nodes as f64)
     };
     let mut intervals: Vec<[f64; 2]> = fractions.iter().map(interval).collect();
+    // The cubic of Hermite for s(x), whose slope is 1/w.
     let inverse = |(x, [low, high]): (&f64, &[f64; 2])| {
         let left = (low * nodes as f64).round() as usize;
         let reached = at_nodes[left];
         let next = at_nodes.get(left + 1).copied().unwrap_or(1.0);
-        (low + (high - low) * (x - reached) / (next - reached)).clamp(*low, *high)
+        let (distance, part) = (next - reached, (x - reached) / (next - reached));
+        let slope = |node: usize| distance * grading.inverse()[node % nodes] - (high - low);
+        let bend = (1.0 - part) * slope(left) - part * slope(left + 1);
+        (low + (high - low) * part + part * (1.0 - part) * bend).clamp(*low, *high)
     };
     let mut found: Vec<f64> = fractions.iter().zip(&intervals).map(inverse).collect();
-    for _ in 0..MOST_PASSES {
-        let mut points = ScatteredPoints::new(nodes, &found);
+    let mut points = ScatteredPoints::new(nodes, &found);
+    for pass in 0..MOST_PASSES {
+        if pass > 0 {
+            points.move_to(&found);
+        }
         let [shifts, slopes] = spectra.each_ref().map(|spectrum| points.values(spectrum));
         let mut worst = 0.0_f64;
         for (i, s) in found.iter_mut().enumerate() {
