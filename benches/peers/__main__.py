@@ -34,15 +34,15 @@ def main():
     figures = json.loads(options.figures.read_text()) if options.figures.exists() else {}
     options.figures.parent.mkdir(exist_ok=True)
     for case in CASES:
-        if not options.tables and (not options.scenes or case.name in options.scenes):
+        if not options.tables and (not options.scenes or case.label in options.scenes):
             measured = measure(case, options.only, options.limit)
-            kept = figures.get(case.name, {"runs": []})["runs"]
+            kept = figures.get(case.label, {"runs": []})["runs"]
             measured["runs"] += [run for run in kept if run["solver"] not in options.only]
             measured["runs"].sort(key=lambda run: list(SOLVERS).index(run["solver"]))
-            figures[case.name] = measured
+            figures[case.label] = measured
             options.figures.write_text(json.dumps(figures))
-            print(case_table(figures[case.name]), flush=True)
-    results = [figures[case.name] for case in CASES if case.name in figures]
+            print(case_table(figures[case.label]), flush=True)
+    results = [figures[case.label] for case in CASES if case.label in figures]
     tables = summary(results, COLUMNS) + "".join(case_table(one) for one in results)
     README.write_text(replaced(README.read_text(), tables))
 
@@ -50,14 +50,14 @@ def main():
 def measure(case, solvers, limit):
     """All runs of a case; a tighter tolerance is not tried once a looser one has failed or passed the limit."""
     runs = []
-    for name in solvers:
+    for name in filter(case.tries, solvers):
         for tolerance in TOLERANCES:
             run = described(name, tolerance, case, median(lambda: integrate(name, case, tolerance, limit), limit))
-            print(f"{case.name}: {name} at {tolerance:.0e}: {run['seconds']} {run['failure'] or ''}", file=sys.stderr)
+            print(f"{case.label}: {name} at {tolerance:.0e}: {run['seconds']} {run['failure'] or ''}", file=sys.stderr)
             runs.append(run)
             if run["failure"]:
                 break
-    return {"scene": case.name, "nodes": case.nodes, "times": case.times, "limit": limit, "runs": runs}
+    return {"scene": case.label, "nodes": case.nodes, "times": case.times, "limit": limit, "runs": runs}
 
 
 def median(solve, limit):

@@ -37,7 +37,7 @@ class SolverFailed(Exception):
 def curveflow(case, tolerance, clock, run, own_nodes=False):
     """The integration, with energy law, closure, balance and log; without the building of the system."""
     run.own_nodes = own_nodes
-    nodes = {"accuracy.nodes": "auto"} if own_nodes else {}
+    nodes = {"accuracy.nodes": "auto", **dict(case.own)} if own_nodes else {}
     simulation = cf.Simulation(case.scene({"accuracy.tolerance": tolerance, **nodes}))
     seconds = 0.0
     for time in case.times:
