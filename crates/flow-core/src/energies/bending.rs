@@ -1,7 +1,10 @@
 //! Bending energy (b/2)∫(κ − c₀)² dσ. See `THEORY.md`, eq. (E1).
 
+use multiversion::multiversion;
+
 use super::{EnergyTerm, Fields, Jet, Order};
 use crate::expression::{Expression, ExpressionError, Program};
+use crate::geometry::vectors::shift;
 
 /// Bending energy with constant rigidity.
 #[derive(Clone, Debug)]
@@ -84,13 +87,19 @@ impl EnergyTerm for Bending {
 fn add_constant(b: f64, preferred: f64, fields: Fields<'_>, jet: &mut Jet) {
     let order = jet.order();
     let (value, first) = jet.value_and_first_mut(0);
-    for ((value, first), kappa) in value.iter_mut().zip(first).zip(fields.get(0)) {
+    add_square(b, preferred, fields.get(0), value, first);
+    if order >= Order::Hessian {
+        shift(jet.second_mut(0, 0), b);
+    }
+}
+
+/// e += (b/2)(κ − c₀)², with its derivative.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn add_square(b: f64, preferred: f64, kappa: &[f64], value: &mut [f64], first: &mut [f64]) {
+    for ((value, first), kappa) in value.iter_mut().zip(first).zip(kappa) {
         let excess = kappa - preferred;
         *value += 0.5 * b * excess * excess;
         *first += b * excess;
-    }
-    if order >= Order::Hessian {
-        jet.second_mut(0, 0).iter_mut().for_each(|second| *second += b);
     }
 }
 
@@ -112,7 +121,7 @@ fn add_of_density(b: f64, preferred: &mut OfDensity, fields: Fields<'_>, jet: &m
     if jet.order() < Order::Hessian {
         return;
     }
-    jet.second_mut(0, 0).iter_mut().for_each(|second| *second += b);
+    shift(jet.second_mut(0, 0), b);
     jet.second_mut(0, field).iter_mut().zip(c_1).for_each(|(second, c_1)| *second -= b * c_1);
     let rho_rho = jet.second_mut(field, field);
     for i in 0..kappa.len() {

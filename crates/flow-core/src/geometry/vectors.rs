@@ -1,7 +1,5 @@
 //! Loops over nodal values and over spectra, compiled for the widest vector registers at hand.
 
-#![allow(clippy::inline_always)] // these bodies must be compiled inside each version of the loops
-
 use multiversion::multiversion;
 
 use super::grid::Complex64;
@@ -84,7 +82,22 @@ pub fn weighted_dot(weights: &[f64], a: &[Complex64], b: &[Complex64]) -> f64 {
     rest.map(|((w, a), b)| w * (a.re * b.re + a.im * b.im)).sum::<f64>() + total(lanes)
 }
 
-#[inline(always)]
+/// Sum of the moduli of a spectrum, by lanes as [`sum`].
+#[must_use]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn sum_of_moduli(a: &[Complex64]) -> f64 {
+    let mut lanes = [0.0; LANES];
+    let (chunks, rest) = a.as_chunks::<LANES>();
+    for a in chunks {
+        for k in 0..LANES {
+            lanes[k] += a[k].norm_sqr().sqrt();
+        }
+    }
+    rest.iter().map(|a| a.norm_sqr().sqrt()).sum::<f64>() + total(lanes)
+}
+
+// Inlined, its order of additions would lead the compiler to split the lanes into registers of two, shuffled in each turn.
+#[inline(never)]
 fn total(lanes: [f64; LANES]) -> f64 {
     ((lanes[0] + lanes[4]) + (lanes[1] + lanes[5])) + ((lanes[2] + lanes[6]) + (lanes[3] + lanes[7]))
 }
@@ -110,6 +123,22 @@ pub fn add_scaled_product(y: &mut [f64], factor: f64, a: &[f64], b: &[f64]) {
 pub fn scale_into(out: &mut [f64], factor: f64, x: &[f64]) {
     for (out, x) in out.iter_mut().zip(x) {
         *out = factor * x;
+    }
+}
+
+/// out = x + shift.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn shift_into(out: &mut [f64], shift: f64, x: &[f64]) {
+    for (out, x) in out.iter_mut().zip(x) {
+        *out = x + shift;
+    }
+}
+
+/// x += shift.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn shift(x: &mut [f64], shift: f64) {
+    for x in x {
+        *x += shift;
     }
 }
 

@@ -224,7 +224,7 @@ impl<S: Stepper> Adaptive<S> {
                 self.stepper.refuse();
                 Err(Rejection::NotFinite)
             }
-            Finish::Good { energy, .. } if energy > self.energy + self.rounding(problem, energy) => {
+            Finish::Good { energy, .. } if self.rises(problem, energy) => {
                 self.stepper.refuse();
                 Err(Rejection::EnergyRise)
             }
@@ -262,6 +262,12 @@ impl<S: Stepper> Adaptive<S> {
         ENERGY_ROUNDING * self.energy.abs().max(energy.abs()) + sensitivity
     }
 
+    /// Whether `energy`, that of the candidate, is above the last one by more than rounding, which is looked at only where it is
+    /// above at all.
+    fn rises(&mut self, problem: &mut dyn Problem, energy: f64) -> bool {
+        energy > self.energy && energy > self.energy + self.rounding(problem, energy)
+    }
+
     /// How far the energy lost in the step to the candidate and the integral of the dissipation are apart: far, if the
     /// step is too large for a transient that the norm of the state does not see.
     /// In units of what is allowed.
@@ -282,7 +288,7 @@ impl<S: Stepper> Adaptive<S> {
     fn is_rough(&mut self, problem: &mut dyn Problem, finish: &Finish, size: f64) -> bool {
         let Finish::Good { energy, dissipation, .. } = finish else { return false };
         let lost = (self.energy - energy).abs();
-        let rises = *energy > self.energy + self.rounding(problem, *energy);
-        rises || dissipation * size > ROUGH * lost + UNSEEN * self.options.energy_tolerance * energy.abs()
+        self.rises(problem, *energy)
+            || dissipation * size > ROUGH * lost + UNSEEN * self.options.energy_tolerance * energy.abs()
     }
 }

@@ -218,6 +218,10 @@ impl<P: Problem> Problem for Clocked<'_, P> {
         self.during(Activity::Check, Activity::StepControl, |problem| problem.finish(time, y))
     }
 
+    fn energy_rounding(&self, y: &[f64]) -> f64 {
+        self.problem.energy_rounding(y)
+    }
+
     fn finished_rate(&mut self, y: &[f64], rate: &mut [f64]) {
         self.problem.finished_rate(y, rate);
     }

@@ -5,6 +5,7 @@ mod combinations;
 mod cyclic_banded;
 mod derivative;
 mod dissipation;
+mod energy_rounding;
 mod flow_map;
 mod gauges;
 mod helmholtz;

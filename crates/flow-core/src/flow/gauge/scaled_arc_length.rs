@@ -3,7 +3,7 @@
 use super::{Gauge, MetricRole, Workspace};
 use crate::flow::CurveFields;
 use crate::geometry::Complex64;
-use crate::geometry::vectors::{multiply_by, multiply_by_conjugate, multiply_into, scale};
+use crate::geometry::vectors::{multiply_by, multiply_by_conjugate, multiply_into, scale, shift_into};
 
 /// The nodes stay at equal distances.
 #[derive(Clone, Copy, Debug, Default)]
@@ -43,9 +43,7 @@ impl Gauge for ScaledArcLength {
         work.grid.transform(&work.product, &mut work.spectrum);
         multiply_by(&mut work.spectrum, work.derivative.inverse_to_flux());
         work.grid.synthesise(&work.spectrum, &mut work.values);
-        for (out, z) in out.iter_mut().zip(&work.values) {
-            *out = z - by_length;
-        }
+        shift_into(out, -by_length, &work.values);
     }
 
     fn tangential_velocity(&self, work: &mut Workspace, at: &CurveFields, v: &[f64], w: &mut [f64]) {

@@ -1,5 +1,7 @@
 //! The implicit operator −𝓚 Hess `𝓕_h`, and the tension in it. See `THEORY.md`, eqs. (F7) and (F20).
 
+use multiversion::multiversion;
+
 use super::GradientFlow;
 use crate::flow::curve_fields::CurveFields;
 use crate::flow::normal_mobility::{MobilityError, NormalMobility};
@@ -41,8 +43,18 @@ impl GradientFlow {
         let change = &mut self.velocity;
         let (grid, _) = self.map.grid_and_derivative();
         grid.synthesise(&layout.spectra(v)[..modes], change);
-        let weight = self.frozen.weight();
-        let by_weight = |i: usize| weight.map_or(1.0 / length, |weight| 1.0 / (length * weight[i]));
+        let Some(weight) = self.frozen.weight() else {
+            let kappa = self.frozen.at_nodes(0);
+            let length_motion = v[layout.length_index()];
+            return add_uniform_tension(
+                &mut self.force,
+                &self.frozen_stretching,
+                [change, kappa],
+                length_motion,
+                1.0 / length,
+            );
+        };
+        let by_weight = |i: usize| 1.0 / (length * weight[i]);
         for (i, force) in self.force.iter_mut().enumerate() {
             *force += self.frozen_stretching[i] * change[i] * by_weight(i);
         }
@@ -68,6 +80,22 @@ impl GradientFlow {
     #[must_use]
     pub fn mean_tension(&self) -> f64 {
         -mean(&self.frozen_stretching)
+    }
+}
+
+/// f += (Z − π)(δK − κ δ|Γ|)/|Γ|, with 1/|Γ| = `inverse`.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn add_uniform_tension(
+    force: &mut [f64],
+    stretching: &[f64],
+    [turning_motion, kappa]: [&[f64]; 2],
+    length_motion: f64,
+    inverse: f64,
+) {
+    for (((f, stretching), change), kappa) in force.iter_mut().zip(stretching).zip(turning_motion).zip(kappa)
+    {
+        *f += stretching * change * inverse;
+        *f -= stretching * kappa * length_motion * inverse;
     }
 }
 

@@ -5,6 +5,7 @@ mod part_costs;
 mod parts;
 mod turning;
 
+use bytemuck::cast_slice;
 use implicit::drive;
 
 use super::curve_fields::CurveFields;
@@ -12,6 +13,7 @@ use super::density_mobility::DensityMobility;
 use super::energy_sum::{EnergySum, IntrinsicGradient};
 use super::flow_map::FlowMap;
 use super::normal_mobility::{MobilityError, NormalMobility};
+use crate::geometry::vectors::{dot, sum_of_moduli};
 use crate::geometry::{Complex64, Layout, SpectralLayout};
 
 pub use part_costs::{EvaluationCost, PartCosts};
@@ -170,10 +172,12 @@ impl GradientFlow {
         let modes = layout.modes();
         let by_field = self.gradient.spectra.chunks_exact(modes).zip(layout.spectra(y).chunks_exact(modes));
         let fields = by_field.map(|(p, phi)| {
-            let slopes = p.iter().enumerate().map(|(mode, p)| self.map.multiplicity(mode) * p.norm());
-            let square =
-                phi.iter().enumerate().map(|(mode, phi)| self.map.multiplicity(mode) * phi.norm_sqr());
-            slopes.sum::<f64>() * square.sum::<f64>().sqrt()
+            // All modes count twice, but for the mean and the sawtooth.
+            let [mean, last] = [0, modes - 1].map(|mode| 2.0 - self.map.multiplicity(mode));
+            let slopes = 2.0 * sum_of_moduli(p) - mean * p[0].norm() - last * p[modes - 1].norm();
+            let twice = 2.0 * dot(cast_slice(phi), cast_slice(phi));
+            let square = twice - mean * phi[0].norm_sqr() - last * phi[modes - 1].norm_sqr();
+            slopes * square.max(0.0).sqrt()
         });
         fields.sum::<f64>() + (self.gradient.by_length * y[layout.length_index()]).abs()
     }

@@ -56,6 +56,13 @@ pub trait NormalMobility: Debug + Send + Sync {
     /// Symbol of 𝓑 with coefficients frozen at their means, for the symbol k² of −`Δ_s`.
     fn symbol(&self, wave_square: f64) -> f64;
 
+    /// [`NormalMobility::symbol`] of each of `wave_squares`, into `symbols`.
+    fn symbols(&self, wave_squares: &[f64], symbols: &mut [f64]) {
+        for (symbol, square) in symbols.iter_mut().zip(wave_squares) {
+            *symbol = self.symbol(*square);
+        }
+    }
+
     /// Order of 𝓑 as a differential operator.
     fn order(&self) -> usize {
         0

@@ -1,5 +1,7 @@
 //! The symbol of I − γJ with coefficients frozen at their means: one small block per mode.
 
+use multiversion::multiversion;
+
 use super::super::gradient_flow::GradientFlow;
 use crate::geometry::vectors;
 use crate::geometry::{Complex64, Layout};
@@ -96,20 +98,15 @@ impl FourierSymbol {
     }
 
     /// As [`FourierSymbol::set`] for the curvature alone: its blocks are numbers, inverted in whole vector registers.
-    fn set_single(&mut self, flow: &GradientFlow, gamma: f64, first: usize, length: f64, tension: f64) {
-        let (mean, coefficient) = (self.means[0], flow.energy_terms().implicit_stiffness()[0]);
-        let (inverse, laplacian) = (&mut self.inverse[first..], &self.laplacian[first..]);
-        for (mobility, symbol) in inverse.iter_mut().zip(laplacian) {
-            *mobility = gamma * mobility_symbol(flow, 0, *symbol, length);
+    fn set_single(&mut self, flow: &mut GradientFlow, gamma: f64, first: usize, length: f64, tension: f64) {
+        let (inverse, squares) = (&mut self.inverse[first..], &mut self.laplacian[first..]);
+        for square in squares.iter_mut() {
+            *square /= length * length;
         }
-        for (inverse, symbol) in inverse.iter_mut().zip(laplacian) {
-            let mobility = *inverse;
-            let stiffness = coefficient * symbol / (length * length);
-            let square = symbol / (length * length);
-            let tension = gamma * tension * square * flow.normal_mobility().symbol(square);
-            let value = 1.0 / (mobility * mean + (1.0 + mobility * stiffness) + tension);
-            *inverse = if value.is_finite() { value } else { 1.0 };
-        }
+        flow.normal_mobility().symbols(squares, inverse);
+        let coefficients = [self.means[0], flow.energy_terms().implicit_stiffness()[0], tension];
+        let laplacian = &flow.grid_and_derivative().1.minus_laplacian()[first..];
+        invert_single(inverse, [laplacian, squares], length, gamma, coefficients);
     }
 
     /// Applies the inverse to the modes from `first` on.
@@ -153,6 +150,24 @@ impl FourierSymbol {
                 }
             }
         }
+    }
+}
+
+/// The inverses of 1 + γk⁴𝓑(e″ + c k²) + `γTk²𝓑` for the squares k², in place of the symbols 𝓑.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn invert_single(
+    inverse: &mut [f64],
+    [laplacian, squares]: [&[f64]; 2],
+    length: f64,
+    gamma: f64,
+    [mean, coefficient, tension]: [f64; 3],
+) {
+    for ((inverse, laplacian), square) in inverse.iter_mut().zip(laplacian).zip(squares) {
+        let mobility = gamma * (square * square * *inverse);
+        let stiffness = coefficient * laplacian / (length * length);
+        let tension = gamma * tension * square * *inverse;
+        let value = 1.0 / (mobility * mean + (1.0 + mobility * stiffness) + tension);
+        *inverse = if value.is_finite() { value } else { 1.0 };
     }
 }
 
