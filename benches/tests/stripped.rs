@@ -1,11 +1,13 @@
 //! The solver for bending alone takes the steps of the core, to the last bit, in the bare loop and in the whole program.
 
-use curveflow_benches::measure::generality;
+use curveflow_benches::measure::{Steps, generality};
 
 #[test]
 fn the_stripped_solver_takes_the_same_steps() {
     for nodes in [64, 96, 256] {
-        let measured = generality(nodes, 1);
-        assert!(measured.steps > 50 && measured.same_bits, "{measured:?}");
+        for steps in [Steps::Implicit, Steps::Exponential] {
+            let measured = generality(steps, nodes, 1);
+            assert!(measured.steps > 50 && measured.same_bits, "{measured:?}");
+        }
     }
 }

@@ -4,7 +4,7 @@
 use std::fmt::Write;
 use std::process::ExitCode;
 
-use curveflow_benches::measure::{CALLS, Times, calls, clocks, generality};
+use curveflow_benches::measure::{CALLS, Steps, Times, calls, clocks, generality};
 use curveflow_benches::report::publish;
 
 const SIZES: [usize; 5] = [64, 128, 256, 512, 1024];
@@ -14,7 +14,7 @@ const ROUNDS: usize = 101;
 
 fn main() -> ExitCode {
     let mut tables = String::new();
-    for table in [generality_table, calls_table, clocks_table] {
+    for table in [implicit_table, exponential_table, calls_table, clocks_table] {
         let text = table();
         print!("{text}");
         tables.push_str(&text);
@@ -22,13 +22,21 @@ fn main() -> ExitCode {
     publish("generality", &tables)
 }
 
-fn generality_table() -> String {
-    let mut table = String::from(
-        "\n| nodes | steps | stripped, ms | core, ms | program, ms | core / stripped | program / stripped | same bits |\n\
+fn implicit_table() -> String {
+    generality_table("Implicit steps:", Steps::Implicit)
+}
+
+fn exponential_table() -> String {
+    generality_table("Exponential steps:", Steps::Exponential)
+}
+
+fn generality_table(title: &str, steps: Steps) -> String {
+    let mut table = format!(
+        "\n{title}\n\n| nodes | steps | stripped, ms | core, ms | program, ms | core / stripped | program / stripped | same bits |\n\
          | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- |\n",
     );
     for nodes in SIZES {
-        let measured = generality(nodes, ROUNDS);
+        let measured = generality(steps, nodes, ROUNDS);
         let (base, core, program) = (measured.stripped, measured.core, measured.program);
         let times = [base, core, program].map(milliseconds).join(" | ");
         let ratios = [core, program].map(|times| ratio(times, base)).join(" | ");

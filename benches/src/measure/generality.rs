@@ -3,7 +3,8 @@
 use std::time::Instant;
 
 use flow_core::integrator::{
-    Adaptive, AdaptiveOptions, Bdf, Clocked, Counters, Finish, Problem, Stepper, Stopwatch,
+    Adaptive, AdaptiveOptions, Clocked, Counters, Finish, INTEGRALS, Integrals, LinearPart, Multistep,
+    Problem, Stepper, Stopwatch,
 };
 use flow_core::run::{ENERGY_TOLERANCE_SHARE, Quiet, Scene, Setup, run};
 
@@ -14,13 +15,26 @@ use crate::stripped::BendingOnly;
 const TOLERANCE: f64 = 1e-5;
 const RIGIDITY: f64 = 1.0;
 
+/// The method of the steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Steps {
+    /// BDF with the Fourier preconditioner.
+    Implicit,
+    /// Exponential Adams, what a scene takes that names no linear solver.
+    Exponential,
+}
+
 /// Bending alone, as `length_penalty` without its penalty.
-fn bending(nodes: usize) -> Scene {
+fn bending(nodes: usize, steps: Steps) -> Scene {
+    let solver = match steps {
+        Steps::Implicit => "fourier",
+        Steps::Exponential => "auto",
+    };
     let text = format!(
         "curve.shape = 'trillium'\n\
          energy.bending.rigidity = {RIGIDITY}\n\
          time = {{ end = 0.01, stop_at_equilibrium = false }}\n\
-         accuracy = {{ tolerance = {TOLERANCE}, nodes = {nodes}, linear_solver = 'fourier' }}\n\
+         accuracy = {{ tolerance = {TOLERANCE}, nodes = {nodes}, linear_solver = '{solver}' }}\n\
          output.frames = 1\n"
     );
     Scene::parse(&text, "bending").expect("a valid scene")
@@ -39,7 +53,8 @@ fn drive<P: Problem>(mut problem: P, mut state: Vec<f64>, end: f64, mut watch: O
     };
     let clock = Instant::now();
     let mut counters = Counters::default();
-    let stepper = Bdf::new(&mut problem, &state, integral_rates, TOLERANCE, &mut counters);
+    let integrals = Integrals::new(0.0, [0.0; INTEGRALS], integral_rates);
+    let stepper = Multistep::starting(&mut problem, &state, integrals, TOLERANCE, &mut counters);
     let energy_tolerance = ENERGY_TOLERANCE_SHARE * TOLERANCE;
     let options = AdaptiveOptions { end, most_steps: u64::MAX, energy_tolerance };
     let mut integration = Adaptive::new(stepper, options, energy, counters);
@@ -57,6 +72,11 @@ fn drive<P: Problem>(mut problem: P, mut state: Vec<f64>, end: f64, mut watch: O
     }
     let seconds = clock.elapsed().as_secs_f64();
     Run { state: integration.stepper().state().to_vec(), counters: *integration.counters(), seconds }
+}
+
+fn only_bending(nodes: usize, steps: Steps, angle: f64) -> BendingOnly {
+    let problem = BendingOnly::new(nodes, RIGIDITY, angle);
+    if steps == Steps::Exponential { problem.with_linear_part() } else { problem }
 }
 
 fn setup(scene: &Scene) -> Setup {
@@ -85,12 +105,12 @@ pub struct Generality {
 /// # Panics
 /// If a run fails.
 #[must_use]
-pub fn generality(nodes: usize, rounds: usize) -> Generality {
-    let scene = bending(nodes);
+pub fn generality(steps: Steps, nodes: usize, rounds: usize) -> Generality {
+    let scene = bending(nodes, steps);
     let end = scene.time.end;
     let stripped = || {
         let Setup { state, placement, .. } = setup(&scene);
-        drive(BendingOnly::new(nodes, RIGIDITY, placement.angle), state, end, None)
+        drive(only_bending(nodes, steps, placement.angle), state, end, None)
     };
     let core = || {
         let Setup { membrane, state, .. } = setup(&scene);
@@ -119,14 +139,23 @@ pub fn generality(nodes: usize, rounds: usize) -> Generality {
 }
 
 /// Names of the calls of [`calls`].
-pub const CALLS: [&str; 7] =
-    ["right-hand side", "linearisation", "J·v", "factorisation", "solve", "weights of a residual", "check"];
+pub const CALLS: [&str; 9] = [
+    "right-hand side",
+    "linearisation",
+    "J·v",
+    "factorisation",
+    "solve",
+    "weights of a residual",
+    "check",
+    "rate after a check",
+    "linear part",
+];
 
 /// Least seconds of one call each of the solver for bending alone and of the core, in the order of [`CALLS`].
 #[must_use]
 pub fn calls(nodes: usize) -> [[f64; CALLS.len()]; 2] {
-    let Setup { membrane, state, placement, .. } = setup(&bending(nodes));
-    [least(BendingOnly::new(nodes, RIGIDITY, placement.angle), &state), least(membrane, &state)]
+    let Setup { membrane, state, placement, .. } = setup(&bending(nodes, Steps::Exponential));
+    [least(only_bending(nodes, Steps::Exponential, placement.angle), &state), least(membrane, &state)]
 }
 
 fn least<P: Problem>(mut problem: P, state: &[f64]) -> [f64; CALLS.len()] {
@@ -144,7 +173,10 @@ fn least<P: Problem>(mut problem: P, state: &[f64]) -> [f64; CALLS.len()] {
         y.copy_from_slice(state);
         problem.finish(0.0, &mut y);
     });
-    [rate, linearisation, product, factorisation, solve, weights, check]
+    let finished_rate = seconds(|| problem.finished_rate(state, &mut out));
+    let mut part = LinearPart::default();
+    let linear_part = seconds(|| _ = problem.linear_part(state, &mut part));
+    [rate, linearisation, product, factorisation, solve, weights, check, finished_rate, linear_part]
 }
 
 /// Seconds of the steps of a shipped scene without and with the stopwatch of a run.

@@ -11,7 +11,7 @@ mod outcome;
 
 pub use case::{AUXILIARY, Case};
 pub use costs::{Costs, SIZES, costs, exponent};
-pub use generality::{CALLS, Generality, calls, clocks, generality};
+pub use generality::{CALLS, Generality, Steps, calls, clocks, generality};
 pub use interleaved::{Times, in_turns};
 pub use iterations::{GAMMAS, REDUCTION, SOLVERS, iterations};
 pub use method::Method;

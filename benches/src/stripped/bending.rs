@@ -7,6 +7,7 @@ use flow_core::geometry::vectors::{
 };
 use flow_core::geometry::{Complex64, PeriodicGrid};
 use flow_core::operators::{Derivative, DerivativeFamily};
+use multiversion::multiversion;
 
 /// The curvature of one state.
 #[derive(Clone, Debug)]
@@ -83,10 +84,7 @@ impl BendingFlow {
         *length = y[turning];
         scale_into(cast_slice_mut(spectrum), 1.0 / *length, &y[..turning]);
         self.grid.synthesise(spectrum, curvature);
-        for ((e, moment), kappa) in self.density.iter_mut().zip(&mut self.moment).zip(&*curvature) {
-            *e = 0.5 * b * kappa * kappa;
-            *moment = b * kappa;
-        }
+        bend(b, curvature, &mut self.density, &mut self.moment);
         let mean_density = mean(&self.density);
         self.grid.transform(&self.moment, &mut self.gradient);
         self.by_length = mean_density - mean_product(&self.grid, spectrum, &self.gradient);
@@ -130,13 +128,8 @@ impl BendingFlow {
         let inverse = 1.0 / self.frozen.length;
         self.spectrum.copy_from_slice(cast_slice(&v[..turning]));
         self.grid.synthesise(&self.spectrum, &mut self.values);
-        for ((f, stretching), change) in self.velocity.iter_mut().zip(&self.stretching[1]).zip(&self.values) {
-            *f += stretching * change * inverse;
-        }
-        let kappa = &self.frozen.curvature;
-        for ((f, stretching), kappa) in self.velocity.iter_mut().zip(&self.stretching[1]).zip(kappa) {
-            *f -= stretching * kappa * v[turning] * inverse;
-        }
+        let fields = [&self.stretching[1][..], &self.values, &self.frozen.curvature];
+        add_tension(&mut self.velocity, fields, v[turning], inverse);
     }
 
     /// V = f of the gradient at hand.
@@ -148,11 +141,12 @@ impl BendingFlow {
         self.grid.transform(&self.product, &mut self.spectrum);
         multiply_by(&mut self.spectrum, self.derivative.inverse_to_flux());
         self.grid.synthesise(&self.spectrum, &mut self.values);
-        for ((f, z), kappa) in self.velocity.iter_mut().zip(&self.values).zip(&at.curvature) {
-            *f = kappa * (z - self.by_length);
-        }
-        if !frozen {
-            self.stretching[0].iter_mut().zip(&self.values).for_each(|(s, z)| *s = z - self.by_length);
+        if frozen {
+            multiply_shifted(&mut self.velocity, &at.curvature, &self.values, self.by_length);
+        } else {
+            let stretching = &mut self.stretching[0];
+            shift(stretching, &self.values, self.by_length);
+            multiply_into(&mut self.velocity, &at.curvature, stretching);
         }
         let scale = -1.0 / at.length.powi(2);
         apply_real_symbol(&mut self.spectrum, scale, &self.gradient, self.derivative.minus_laplacian());
@@ -218,15 +212,63 @@ impl BendingFlow {
         self.grid.synthesise(&self.spectrum, w);
     }
 
+    /// The eigenvalue of each mode at the linearisation with the coefficients frozen at their means.
+    pub fn eigenvalues(&self) -> impl Iterator<Item = f64> {
+        let (length, stiffness) = (self.frozen.length, mean(&self.stiffness));
+        let tension = -mean(&self.stretching[1]);
+        self.derivative.minus_laplacian().iter().map(move |laplacian| {
+            let square = laplacian / (length * length);
+            let stretched = if square > 0.0 { tension / square } else { 0.0 };
+            -square * (stiffness + stretched) * square
+        })
+    }
+
     /// The symbol of (I − γJ)⁻¹ at the linearisation, by mode.
     pub fn invert_symbol(&self, gamma: f64, inverse: &mut [f64]) {
         let (length, stiffness) = (self.frozen.length, mean(&self.stiffness));
         let tension = (-mean(&self.stretching[1])).max(0.0);
-        for (inverse, laplacian) in inverse.iter_mut().zip(self.derivative.minus_laplacian()) {
-            let square = laplacian / (length * length);
-            let mobility = gamma * (square * square);
-            *inverse = 1.0 / (mobility * stiffness + 1.0 + gamma * tension * square);
-        }
+        invert(inverse, self.derivative.minus_laplacian(), length, gamma, [stiffness, tension]);
+    }
+}
+
+/// (b/2)κ² and bκ.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn bend(b: f64, kappa: &[f64], density: &mut [f64], moment: &mut [f64]) {
+    for ((e, moment), kappa) in density.iter_mut().zip(moment).zip(kappa) {
+        *e = 0.5 * b * kappa * kappa;
+        *moment = b * kappa;
+    }
+}
+
+/// f += (Z − π)(δK − κ δ|Γ|)/|Γ|.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn add_tension(f: &mut [f64], [stretching, change, kappa]: [&[f64]; 3], length_motion: f64, inverse: f64) {
+    for (((f, stretching), change), kappa) in f.iter_mut().zip(stretching).zip(change).zip(kappa) {
+        *f += stretching * change * inverse;
+        *f -= stretching * kappa * length_motion * inverse;
+    }
+}
+
+/// out = z − π.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn shift(out: &mut [f64], z: &[f64], by_length: f64) {
+    out.iter_mut().zip(z).for_each(|(out, z)| *out = z - by_length);
+}
+
+/// f = κ(z − π).
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn multiply_shifted(f: &mut [f64], kappa: &[f64], z: &[f64], by_length: f64) {
+    for ((f, z), kappa) in f.iter_mut().zip(z).zip(kappa) {
+        *f = kappa * (z - by_length);
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn invert(inverse: &mut [f64], laplacian: &[f64], length: f64, gamma: f64, [stiffness, tension]: [f64; 2]) {
+    for (inverse, laplacian) in inverse.iter_mut().zip(laplacian) {
+        let square = laplacian / (length * length);
+        let mobility = gamma * (square * square);
+        *inverse = 1.0 / (mobility * stiffness + 1.0 + gamma * tension * square);
     }
 }
 

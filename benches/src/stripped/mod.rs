@@ -9,7 +9,7 @@ mod bending;
 use std::ops::Range;
 
 use flow_core::geometry::{Closure, Complex64, Layout, SpectralLayout};
-use flow_core::integrator::{Finish, INTEGRALS, Problem};
+use flow_core::integrator::{Finish, INTEGRALS, LinearPart, Problem};
 
 use bending::BendingFlow;
 
@@ -25,6 +25,8 @@ pub struct BendingOnly {
     start_angle: f64,
     placed: [f64; 3],
     candidate_angle_rate: f64,
+    /// Whether it has a linear part, and so the steps are exponential.
+    has_linear_part: bool,
 }
 
 impl BendingOnly {
@@ -40,8 +42,15 @@ impl BendingOnly {
             start_angle: angle,
             placed: [0.0, angle, 0.0],
             candidate_angle_rate: 0.0,
+            has_linear_part: false,
             flow,
         }
+    }
+
+    /// The same for exponential steps.
+    #[must_use]
+    pub fn with_linear_part(self) -> Self {
+        Self { has_linear_part: true, ..self }
     }
 
     fn integral_rates(&mut self, dissipation: f64) -> [f64; INTEGRALS] {
@@ -127,6 +136,23 @@ impl Problem for BendingOnly {
         let integral_rates = self.integral_rates(dissipation);
         self.candidate_angle_rate = integral_rates[1];
         Finish::Good { energy, dissipation, integral_rates }
+    }
+
+    fn finished_rate(&mut self, _: &[f64], rate: &mut [f64]) {
+        self.flow.write_rates(rate);
+    }
+
+    fn linear_part(&mut self, y: &[f64], part: &mut LinearPart) -> bool {
+        if !self.has_linear_part {
+            return false;
+        }
+        self.flow.evaluate(y);
+        self.flow.freeze();
+        part.clear(1, self.flow.modes());
+        for (mode, rate) in self.flow.eigenvalues().enumerate() {
+            part.set_eigenvector(mode, 0, rate, &[1.0], &[1.0]);
+        }
+        part.fits(y.len()) && part.rates()[2 * self.flow.modes() - 1] <= 0.0
     }
 
     fn accepted(&mut self, time: f64, integrals: [f64; INTEGRALS]) {
