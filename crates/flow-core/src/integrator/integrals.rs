@@ -5,10 +5,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::INTEGRALS;
-use super::history::lagrange;
 
-/// Values that a polynomial goes through.
-const POINTS: usize = 5;
+/// Values that a polynomial goes through: with fewer, the balance of energy and dissipation would limit the steps of order 7.
+const POINTS: usize = 7;
 /// The integral whose rate is never negative.
 const POSITIVE: usize = 0;
 /// Logarithm by which an interpolated positive rate may leave the range of the two rates beside it.
@@ -20,9 +19,13 @@ const MOST_SWING: f64 = 6.9;
 const GROWING: f64 = 1.5;
 /// Least power of the time by which they do so.
 const POWER: f64 = 0.25;
-/// Nodes and weights of the three-point Gauss rule on [0, 1], exact for the polynomials used.
-const GAUSS: [(f64, f64); 3] =
-    [(0.112_701_665_379_258_31, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
+/// Nodes and weights of the four-point Gauss rule on [0, 1], exact for the polynomials used.
+const GAUSS: [(f64, f64); 4] = [
+    (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
+    (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
+    (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
+    (0.930_568_155_797_026_2, 0.173_927_422_568_726_93),
+];
 
 /// The integrals with the history of their rates, newest first.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -118,22 +121,52 @@ impl Integrals {
         }
         // A rate that falls by decades within a few steps is a polynomial in its logarithm only.
         let logarithmic = rates.iter().all(|r| r[POSITIVE] > 0.0);
+        let mut scaled_rates = self.rates;
+        if logarithmic {
+            scaled_rates[..self.filled].iter_mut().for_each(|r| r[POSITIVE] = r[POSITIVE].ln());
+        }
+        let points = &scaled[..self.filled];
+        let factors = lagrange_factors(points);
         for (node, weight) in GAUSS {
-            let weights = lagrange(scale(start + node * (time - start)), &scaled[..self.filled]).value;
+            let weights = lagrange_values(scale(start + node * (time - start)), points, &factors);
             for (i, value) in values.iter_mut().enumerate() {
-                let sum =
-                    |of: fn(f64) -> f64| rates.iter().zip(weights).map(|(r, w)| w * of(r[i])).sum::<f64>();
-                let ends = [rates[0][i], rates[1][i]];
+                let sum = scaled_rates[..self.filled].iter().zip(weights).map(|(r, w)| w * r[i]).sum::<f64>();
+                let ends = [scaled_rates[0][i], scaled_rates[1][i]];
                 let rate = match i {
-                    POSITIVE if logarithmic => near(sum(f64::ln), ends.map(f64::ln), LEAST_SWING).exp(),
-                    POSITIVE => sum(|rate| rate).min(2.0 * ends[0].max(ends[1])).max(0.0),
-                    _ => sum(|rate| rate),
+                    POSITIVE if logarithmic => near(sum, ends, LEAST_SWING).exp(),
+                    POSITIVE => sum.min(2.0 * ends[0].max(ends[1])).max(0.0),
+                    _ => sum,
                 };
                 *value += (time - start) * weight * rate;
             }
         }
         values
     }
+}
+
+/// 1/∏(pⱼ − pᵢ) of each of the `points`.
+fn lagrange_factors(points: &[f64]) -> [f64; POINTS] {
+    let mut factors = [1.0; POINTS];
+    for (j, (factor, point)) in factors.iter_mut().zip(points).enumerate() {
+        let others = points.iter().enumerate().filter(|(i, _)| *i != j);
+        *factor = 1.0 / others.map(|(_, other)| point - other).product::<f64>();
+    }
+    factors
+}
+
+/// Values at `x` of the Lagrange polynomials of `points`: products of the distances before and after each.
+fn lagrange_values(x: f64, points: &[f64], factors: &[f64; POINTS]) -> [f64; POINTS] {
+    let mut values = *factors;
+    let (mut before, mut after) = (1.0, 1.0);
+    for (value, point) in values.iter_mut().zip(points) {
+        *value *= before;
+        before *= x - point;
+    }
+    for (value, point) in values[..points.len()].iter_mut().zip(points).rev() {
+        *value *= after;
+        after *= x - point;
+    }
+    values
 }
 
 /// `value`, but no farther outside the range of `ends` than the range is wide and `least` more: a polynomial through
