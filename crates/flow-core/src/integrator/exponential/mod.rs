@@ -10,6 +10,7 @@ mod control;
 mod memory;
 mod moments;
 mod polynomials;
+mod sums;
 
 use super::error_norm::ErrorNorm;
 use super::history::{History, MOST_POINTS, lagrange};
@@ -17,7 +18,7 @@ use super::integrals::Integrals;
 use super::linear_part::LinearPart;
 use super::pace::Pace;
 use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
-use crate::geometry::vectors::{add_scaled, add_scaled_product};
+use crate::geometry::vectors::add_scaled_product;
 pub use memory::ExponentialMemory;
 use moments::{Moments, moments_at};
 use polynomials::{Coefficients, lagrange_basis, of_last_point, of_new_value};
@@ -101,44 +102,26 @@ impl Exponential {
     fn predict(&mut self) {
         let points = self.pace.order;
         let basis = lagrange_basis(&self.nodes(points)[..points]);
-        let Self { predicted, predicted_rest: extrapolated, scratch, moments, .. } = self;
-        extrapolated.fill(0.0);
-        predicted.fill(0.0);
-        add_scaled_product(predicted, 1.0, moments.decay(), &self.bases[0]);
-        for i in 0..points {
-            scratch.fill(0.0);
-            for (rest, polynomial) in self.rests.iter().zip(&basis[..points]) {
-                add_scaled(scratch, polynomial[i], rest);
-            }
-            add_scaled_product(predicted, self.pace.step, moments.values(i), scratch);
-            add_scaled(extrapolated, 1.0, scratch);
-        }
-        std::mem::swap(scratch, extrapolated);
+        let Self { predicted, scratch, moments, bases, rests, pace, .. } = self;
+        let functions = (moments.decay(), moments.values());
+        sums::extrapolate(pace.step, &basis[..points], functions, (&bases[0], rests), predicted, scratch);
         self.part.from_eigenbasis(predicted);
     }
 
-    /// out = h Σ aᵢ mᵢ(hΛ) v, in the original basis.
+    /// `scratch` = h Σ aᵢ mᵢ(hΛ) v in the original basis, v = `missed` in the eigenbasis.
     fn integrate(&mut self, polynomial: &Coefficients, degree: usize) {
-        self.scratch.fill(0.0);
-        for (i, coefficient) in polynomial[..=degree].iter().enumerate() {
-            add_scaled_product(
-                &mut self.scratch,
-                self.pace.step * coefficient,
-                self.moments.values(i),
-                &self.missed,
-            );
-        }
-        self.part.from_eigenbasis(&mut self.scratch);
+        let Self { scratch, missed, moments, pace, .. } = self;
+        sums::integrate(pace.step, &polynomial[..=degree], moments.values(), missed, scratch);
+        self.part.from_eigenbasis(scratch);
     }
 
     /// By how much a correction with the last `points` values of N and the one at the prediction differs from one with a value less.
     fn difference(&mut self, points: usize) -> f64 {
         let nodes = self.nodes(points);
         let weights = lagrange(1.0, &nodes[..points]).value;
-        self.missed.copy_from_slice(&self.predicted_rest);
-        for (weight, rest) in weights[..points].iter().zip(&self.rests) {
-            add_scaled(&mut self.missed, -weight, rest);
-        }
+        let Self { missed, predicted_rest, rests, .. } = self;
+        sums::combine(&weights[..points], rests, missed);
+        missed.iter_mut().zip(&*predicted_rest).for_each(|(missed, rest)| *missed = rest - *missed);
         self.integrate(&of_last_point(&nodes[..points]), points);
         self.norm.norm(&self.scratch)
     }

@@ -17,7 +17,8 @@ const LANES: usize = 8;
 /// e^z, and m₀ … mₙ₋₁ at each z, n the length of `moments`.
 #[inline(always)]
 fn moments_of(z: [f64; LANES], moments: &mut [[f64; LANES]]) -> [f64; LANES] {
-    let decay = z.map(exp);
+    let mut decay = [0.0; LANES];
+    (0..LANES).for_each(|k| decay[k] = exp(z[k]));
     if z.iter().all(|z| z.abs() >= SMALL) {
         by_recursion(z, decay, moments);
     } else if z.iter().all(|z| z.abs() < SMALL) {
@@ -68,19 +69,32 @@ fn by_series(z: [f64; LANES], moments: &mut [[f64; LANES]]) {
     }
 }
 
-/// Into `decay` and the first `count` of `values`, at z = `size` × rate for each of the `rates`.
+/// Into `decay` and the first `count` of `values`, at z = `size` × rate for each of the `rates`, of which each stands twice, for a
+/// real and an imaginary part; the last one, alone, is not looked at.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn fill(size: f64, rates: &[f64], count: usize, decay: &mut [f64], values: &mut [Vec<f64>]) {
     let mut moments = [[0.0; LANES]; MOST_MOMENTS];
-    for start in (0..rates.len()).step_by(LANES) {
-        let width = LANES.min(rates.len() - start);
-        let z = std::array::from_fn(|k| size * rates[start + k.min(width - 1)]);
+    let pairs = rates.len() / 2;
+    for start in (0..pairs).step_by(LANES) {
+        let width = LANES.min(pairs - start);
+        let z = std::array::from_fn(|k| size * rates[2 * (start + k.min(width - 1))]);
         let decays = moments_of(z, &mut moments[..count]);
-        decay[start..start + width].copy_from_slice(&decays[..width]);
+        let entries = 2 * start..2 * (start + width);
+        twice(&decays, &mut decay[entries.clone()]);
         for (values, moment) in values.iter_mut().zip(&moments[..count]) {
-            values[start..start + width].copy_from_slice(&moment[..width]);
+            twice(moment, &mut values[entries.clone()]);
         }
     }
+}
+
+/// Each of the first values in turn, twice.
+#[inline(always)]
+fn twice(values: &[f64; LANES], out: &mut [f64]) {
+    if let Some(out) = out.as_mut_array::<{ 2 * LANES }>() {
+        *out = std::array::from_fn(|k| values[k / 2]);
+        return;
+    }
+    out.iter_mut().enumerate().for_each(|(k, out)| *out = values[k / 2]);
 }
 
 /// e^z, and m₀ … mₙ₋₁ at one z, n the length of `moments`.
@@ -113,13 +127,20 @@ impl Moments {
         self.known = 0;
     }
 
-    /// The first `count` moments at zₑ = `size` × rate of entry e.
+    /// The first `count` moments at zₑ = `size` × rate of entry e; the rates are those of a [`LinearPart`].
+    ///
+    /// [`LinearPart`]: crate::integrator::LinearPart
     pub fn set(&mut self, size: f64, rates: &[f64], count: usize) {
         if size.to_bits() == self.size.to_bits() && count <= self.known {
             return;
         }
         (self.size, self.known) = (size, count);
         fill(size, rates, count, &mut self.decay, &mut self.values);
+        if let Some((rate, last)) = rates.last().zip(rates.len().checked_sub(1)) {
+            let mut moments = [0.0; MOST_MOMENTS];
+            self.decay[last] = moments_at(size * rate, &mut moments[..count]);
+            self.values.iter_mut().zip(&moments[..count]).for_each(|(values, m)| values[last] = *m);
+        }
     }
 
     /// e^z.
@@ -127,9 +148,9 @@ impl Moments {
         &self.decay
     }
 
-    /// mᵢ.
-    pub fn values(&self, i: usize) -> &[f64] {
-        &self.values[i]
+    /// mᵢ by their index.
+    pub fn values(&self) -> &[Vec<f64>] {
+        &self.values
     }
 }
 
