@@ -6,8 +6,10 @@ use serde::{Deserialize, Serialize};
 
 use super::INTEGRALS;
 
-/// Values that a polynomial goes through: with fewer, the balance of energy and dissipation would limit the steps of order 7.
+/// Values that a polynomial goes through at most.
 const POINTS: usize = 7;
+/// … and at least, once there are so many.
+const FEWEST_OF_MANY: usize = 5;
 /// The integral whose rate is never negative.
 const POSITIVE: usize = 0;
 /// Logarithm by which an interpolated positive rate may leave the range of the two rates beside it.
@@ -33,6 +35,8 @@ pub struct Integrals {
     times: [f64; POINTS],
     rates: [[f64; INTEGRALS]; POINTS],
     filled: usize,
+    /// How many of them the polynomials go through at most.
+    most: usize,
     /// Time at the start, and the time in which the positive rate falls by much from there: none of its logarithm is finer.
     start: f64,
     scale: f64,
@@ -48,10 +52,21 @@ impl Integrals {
             times: [time; POINTS],
             rates: [rates; POINTS],
             filled: 1,
+            most: FEWEST_OF_MANY,
             start: time,
             scale: 0.0,
             values: [values; 2],
         }
+    }
+
+    /// Takes polynomials through as many values as a step of order `order` has use for: with fewer, the balance of energy and
+    /// dissipation would limit steps of high order; with more, those of low order swing.
+    pub fn serve_order(&mut self, order: usize) {
+        self.most = order.clamp(FEWEST_OF_MANY, POINTS);
+    }
+
+    fn used(&self) -> usize {
+        self.filled.min(self.most)
     }
 
     /// Whether the numbers belong together.
@@ -59,6 +74,7 @@ impl Integrals {
     pub(super) fn is_sound(&self) -> bool {
         let rates = self.rates.iter().chain(&self.values).flatten();
         (1..=POINTS).contains(&self.filled)
+            && (FEWEST_OF_MANY..=POINTS).contains(&self.most)
             && rates.chain(&self.times).chain([&self.start, &self.scale]).all(|value| value.is_finite())
     }
 
@@ -109,11 +125,11 @@ impl Integrals {
         if self.filled < 2 {
             return self.values[0];
         }
-        let start = self.times[1];
+        let (start, used) = (self.times[1], self.used());
         let mut values = self.values[1];
-        let rates = &self.rates[..self.filled];
-        let times = &self.times[..self.filled];
-        let grow = times[0] - start > GROWING * (times[self.filled - 2] - times[self.filled - 1]);
+        let rates = &self.rates[..used];
+        let times = &self.times[..used];
+        let grow = times[0] - start > GROWING * (times[used - 2] - times[used - 1]);
         let scale = |time: f64| if grow { (time - self.start + self.scale).ln() } else { time };
         let mut scaled = self.times;
         for time in &mut scaled {
@@ -123,14 +139,14 @@ impl Integrals {
         let logarithmic = rates.iter().all(|r| r[POSITIVE] > 0.0);
         let mut scaled_rates = self.rates;
         if logarithmic {
-            scaled_rates[..self.filled].iter_mut().for_each(|r| r[POSITIVE] = r[POSITIVE].ln());
+            scaled_rates[..used].iter_mut().for_each(|r| r[POSITIVE] = r[POSITIVE].ln());
         }
-        let points = &scaled[..self.filled];
+        let points = &scaled[..used];
         let factors = lagrange_factors(points);
         for (node, weight) in GAUSS {
             let weights = lagrange_values(scale(start + node * (time - start)), points, &factors);
             for (i, value) in values.iter_mut().enumerate() {
-                let sum = scaled_rates[..self.filled].iter().zip(weights).map(|(r, w)| w * r[i]).sum::<f64>();
+                let sum = scaled_rates[..used].iter().zip(weights).map(|(r, w)| w * r[i]).sum::<f64>();
                 let ends = [scaled_rates[0][i], scaled_rates[1][i]];
                 let rate = match i {
                     POSITIVE if logarithmic => near(sum, ends, LEAST_SWING).exp(),

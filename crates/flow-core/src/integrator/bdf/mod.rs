@@ -104,7 +104,8 @@ impl Bdf {
     ///
     /// The factorisation that the memory speaks of must be in `problem`.
     #[must_use]
-    pub fn resume(problem: &dyn Problem, memory: Memory, tolerance: f64) -> Self {
+    pub fn resume(problem: &dyn Problem, mut memory: Memory, tolerance: f64) -> Self {
+        memory.integrals.serve_order(HIGHEST_ORDER);
         let size = problem.size();
         let mut newton = NewtonKrylov::new(size);
         newton.set_factorisation(memory.factorisation);

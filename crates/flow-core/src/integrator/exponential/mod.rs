@@ -172,6 +172,8 @@ impl Stepper for Exponential {
 
     fn attempt(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> Result<(), Rejection> {
         self.renew(problem, counters);
+        // One more than the corrector's order: the balance is held to less than the tolerance of the state.
+        self.integrals.serve_order(self.pace.order + 2);
         self.norm.rescale(problem, self.states.state(0));
         self.moments.set(self.pace.step, self.part.rates(), (self.pace.order + 3).min(MOST_MOMENTS));
         self.predict();
