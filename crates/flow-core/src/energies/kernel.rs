@@ -1,5 +1,7 @@
 //! The kernel of a self-interaction: a function of the squared distance, zero beyond a cut-off.
 
+use multiversion::multiversion;
+
 use super::Order;
 use super::adhesion::CutOff;
 use crate::expression::{Expression, ExpressionError, Program};
@@ -66,6 +68,7 @@ impl Kernel {
 }
 
 /// Zero beyond the cut-off, whatever stood there.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn cut(squares: &[f64], largest_square: f64, values: &mut [f64]) {
     for (value, square) in values.iter_mut().zip(squares) {
         *value = if *square > largest_square { 0.0 } else { *value };

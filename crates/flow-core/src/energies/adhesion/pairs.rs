@@ -1,8 +1,10 @@
 //! Sums over the pairs of nodes within the cut-off.
 
+use multiversion::multiversion;
+
 use super::super::Order;
 use super::Adhesion;
-use crate::geometry::vectors::{self, dot};
+use crate::geometry::vectors;
 
 impl Adhesion {
     /// Σ_{i<j} G, with Σⱼ G′(γᵢ − γⱼ) in `sums`, and Σⱼ G in `shares` if the weights move.
@@ -16,13 +18,13 @@ impl Adhesion {
                 let count = others.len();
                 let [pull_x, pull_y] = self.pull.each_mut().map(|pull| &mut pull[..count]);
                 let squares = &mut self.squares[..count];
-                let separations = x[others.clone()].iter().zip(&y[others.clone()]);
-                for (((square, dx), dy), (x_j, y_j)) in
-                    squares.iter_mut().zip(&mut *pull_x).zip(&mut *pull_y).zip(separations)
-                {
-                    (*dx, *dy) = (x[place] - x_j, y[place] - y_j);
-                    *square = *dx * *dx + *dy * *dy;
-                }
+                let from = [x[place], y[place]];
+                separate(
+                    from,
+                    [&x[others.clone()], &y[others.clone()]],
+                    [&mut *pull_x, &mut *pull_y],
+                    squares,
+                );
                 let [value, first, second] = self.values.each_mut().map(|values| &mut values[..count]);
                 self.kernel.evaluate(squares, order, [&mut *value, &mut *first, &mut *second]);
                 if !self.weight.is_empty() {
@@ -45,10 +47,8 @@ impl Adhesion {
                     }
                 }
                 sum += vectors::sum(value);
-                sum_x += dot(first, pull_x);
-                sum_y += dot(first, pull_y);
-                take_products(&mut self.sums[0][others.clone()], first, pull_x);
-                take_products(&mut self.sums[1][others], first, pull_y);
+                sum_x += share(first, pull_x, &mut self.sums[0][others.clone()]);
+                sum_y += share(first, pull_y, &mut self.sums[1][others]);
             }
             self.sums[0][place] += sum_x;
             self.sums[1][place] += sum_y;
@@ -70,13 +70,8 @@ impl Adhesion {
                 let second = &self.frozen.second[pairs..pairs + count];
                 let [x_j, y_j] = [&x[others.clone()], &y[others.clone()]];
                 let [v_x_j, v_y_j] = [&v_x[others.clone()], &v_y[others.clone()]];
-                for k in 0..count {
-                    let (dx, dy) = (x[place] - x_j[k], y[place] - y_j[k]);
-                    let (change_x, change_y) = (v_x[place] - v_x_j[k], v_y[place] - v_y_j[k]);
-                    let stretch = 2.0 * second[k] * (dx * change_x + dy * change_y);
-                    pull_x[k] = first[k] * change_x + stretch * dx;
-                    pull_y[k] = first[k] * change_y + stretch * dy;
-                }
+                let from = [[x[place], y[place]], [v_x[place], v_y[place]]];
+                change(from, [[x_j, y_j], [v_x_j, v_y_j]], [first, second], [&mut *pull_x, &mut *pull_y]);
                 if moving {
                     let rates = &self.weight_motion;
                     for k in 0..count {
@@ -109,11 +104,60 @@ fn weigh(values: &mut [f64], factor: f64, weight: &[f64]) {
 }
 
 /// sums −= pull.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn take(sums: &mut [f64], pull: &[f64]) {
     sums.iter_mut().zip(pull).for_each(|(sum, pull)| *sum -= pull);
 }
 
-/// sums −= a b.
-fn take_products(sums: &mut [f64], a: &[f64], b: &[f64]) {
-    sums.iter_mut().zip(a).zip(b).for_each(|((sum, a), b)| *sum -= a * b);
+/// Separations of the point `from` from others, and their squares.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn separate([x, y]: [f64; 2], [x_j, y_j]: [&[f64]; 2], [dx, dy]: [&mut [f64]; 2], squares: &mut [f64]) {
+    let count = squares.len();
+    let (x_j, y_j, dx, dy) = (&x_j[..count], &y_j[..count], &mut dx[..count], &mut dy[..count]);
+    for k in 0..count {
+        (dx[k], dy[k]) = (x - x_j[k], y - y_j[k]);
+        squares[k] = dx[k] * dx[k] + dy[k] * dy[k];
+    }
+}
+
+/// Σ a b, of which each term is taken from one of the `sums`; in independent lanes, as [`vectors::sum`].
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn share(a: &[f64], b: &[f64], sums: &mut [f64]) -> f64 {
+    const LANES: usize = 8;
+    let mut lanes = [0.0; LANES];
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
+    let (chunks, rest) = sums.as_chunks_mut::<LANES>();
+    for ((a, b), sums) in a.iter().zip(b).zip(chunks) {
+        for k in 0..LANES {
+            let pull = a[k] * b[k];
+            lanes[k] += pull;
+            sums[k] -= pull;
+        }
+    }
+    let mut total = lanes.iter().sum::<f64>();
+    for ((a, b), sum) in a_rest.iter().zip(b_rest).zip(rest) {
+        total += a * b;
+        *sum -= a * b;
+    }
+    total
+}
+
+/// Change of G′(γᵢ − γⱼ) for each j, at the points and under the motions of `from` and of the `others`.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn change(
+    [[x, y], [v_x, v_y]]: [[f64; 2]; 2],
+    [[x_j, y_j], [v_x_j, v_y_j]]: [[&[f64]; 2]; 2],
+    [first, second]: [&[f64]; 2],
+    [pull_x, pull_y]: [&mut [f64]; 2],
+) {
+    let count = pull_x.len();
+    let (x_j, y_j, v_x_j, v_y_j) = (&x_j[..count], &y_j[..count], &v_x_j[..count], &v_y_j[..count]);
+    let (first, second, pull_y) = (&first[..count], &second[..count], &mut pull_y[..count]);
+    for k in 0..count {
+        let (dx, dy) = (x - x_j[k], y - y_j[k]);
+        let (change_x, change_y) = (v_x - v_x_j[k], v_y - v_y_j[k]);
+        let stretch = 2.0 * second[k] * (dx * change_x + dy * change_y);
+        pull_x[k] = first[k] * change_x + stretch * dx;
+        pull_y[k] = first[k] * change_y + stretch * dy;
+    }
 }
