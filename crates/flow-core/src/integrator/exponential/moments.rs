@@ -90,7 +90,7 @@ fn fill(size: f64, rates: &[f64], count: usize, decay: &mut [f64], values: &mut 
 /// Each of the first values in turn, twice.
 #[inline(always)]
 fn twice(values: &[f64; LANES], out: &mut [f64]) {
-    if let Some(out) = out.as_mut_array::<{ 2 * LANES }>() {
+    if let Ok(out) = <&mut [f64; 2 * LANES]>::try_from(&mut *out) {
         *out = std::array::from_fn(|k| values[k / 2]);
         return;
     }
