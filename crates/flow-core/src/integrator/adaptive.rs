@@ -91,6 +91,8 @@ const IMBALANCE: f64 = 15.0;
 /// Part of that from which on the next step is no larger.
 const WORTH_NO_GROWTH: f64 = 0.3;
 const MOST_POLISHES: usize = 6;
+/// Corrections that leave more than this part of the dissipation are not worth another one.
+const UNMENDED: f64 = 0.5;
 /// The step size must stay above this many units in the last place of the time.
 const LEAST_STEP_ULPS: f64 = 16.0;
 /// Differences of times below this have no reciprocals.
@@ -217,7 +219,11 @@ impl<S: Stepper> Adaptive<S> {
             if !self.is_rough(problem, &finish, size) || !self.stepper.polish(problem, &mut self.counters) {
                 break;
             }
+            let before = finish.dissipation();
             finish = self.finish(problem, time);
+            if finish.dissipation() > UNMENDED * before {
+                break;
+            }
         }
         match finish {
             Finish::NotFinite => {

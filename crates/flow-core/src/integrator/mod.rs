@@ -94,6 +94,16 @@ pub enum Finish {
     NotFinite,
 }
 
+impl Finish {
+    /// The dissipation; infinite where there is none.
+    fn dissipation(&self) -> f64 {
+        match self {
+            Self::Good { dissipation, .. } => *dissipation,
+            Self::NotFinite => f64::INFINITY,
+        }
+    }
+}
+
 /// Why an attempt at a step failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rejection {

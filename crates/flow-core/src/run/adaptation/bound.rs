@@ -7,6 +7,8 @@ const LEFT_OUT: f64 = 2.0;
 const MOST_LEFT_OUT: f64 = 3e-4;
 /// Fronts that are hardly resolved are held by the nodes, and that error is far larger than what is not resolved.
 const MOST_LEFT_OUT_OF_FRONTS: f64 = 2e-5;
+/// With more left out, sharp fronts do not come to rest on nodes that follow them.
+const MOST_LEFT_OUT_OF_FRONTS_IN_CROWDS: f64 = 1e-4;
 /// The rounding of spectra.
 const LEAST_LEFT_OUT: f64 = 1e-13;
 /// The part of that on nodes that follow the solution: what is not resolved lets the solution slide off its crowds, and
@@ -17,7 +19,8 @@ const LEFT_OUT_OF_CROWDS: f64 = 0.1;
 pub fn unresolved_bound(scene: &Scene) -> f64 {
     let part = LEFT_OUT * scene.accuracy.tolerance;
     let part = match (scene.flow.follows_solution(), scene.energy.agents.is_some()) {
-        (true, _) => part.min(MOST_LEFT_OUT) * LEFT_OUT_OF_CROWDS,
+        (true, true) => part.min(MOST_LEFT_OUT_OF_FRONTS_IN_CROWDS) * LEFT_OUT_OF_CROWDS,
+        (true, false) => part.min(MOST_LEFT_OUT) * LEFT_OUT_OF_CROWDS,
         (false, true) => part.min(MOST_LEFT_OUT_OF_FRONTS),
         (false, false) => part.min(MOST_LEFT_OUT),
     };
