@@ -1,7 +1,8 @@
 //! Weights of residuals r = b − (I − γJ)x, between the two that are of interest.
 //!
 //! A residual r of a stiff mode with symbol 1 + γσ is an error r/(1 + γσ) of the state, but an error r/γ of the rate,
-//! which enters the dissipation. (1 + γσ)^{−3/8} keeps both small and does not ask for more. See `THEORY.md`, eq. (I3).
+//! which enters the dissipation. (1 + γσ)^{−3/8} keeps both small and does not ask for more. Where nodes crowd, σ, a mean, is far
+//! below the stiffness there, and (1 + γσ)^{−1/4} does that. See `THEORY.md`, eq. (I3).
 
 use super::super::gradient_flow::GradientFlow;
 use super::fourier::mobility_symbol;
@@ -30,6 +31,7 @@ impl ResidualWeights {
     /// Takes the symbols at the frozen state of `flow`, without the variable coefficients.
     pub fn set(&mut self, flow: &mut GradientFlow, gamma: f64) {
         let (layout, length) = (flow.spectral_layout(), flow.symbol_length());
+        let uniform = flow.grading().is_none() && flow.layout().metric().is_none();
         for place in 0..flow.layout().state_fields() {
             // The metric moves as stiffly as the curvature.
             let field = if Some(place) == flow.layout().metric() { 0 } else { place };
@@ -49,7 +51,7 @@ impl ResidualWeights {
             // A loop of its own, so that the roots are taken in whole vector registers.
             for ((inverse, weight), stiffness) in inverses.iter_mut().zip(weights).zip(&self.stiffness) {
                 let quarter = (1.0 + stiffness).sqrt().sqrt();
-                let root = quarter * quarter.sqrt();
+                let root = if uniform { quarter * quarter.sqrt() } else { quarter };
                 *inverse = [root; 2];
                 *weight = [1.0 / root; 2];
             }
