@@ -130,7 +130,11 @@ impl Integrals {
         let rates = &self.rates[..used];
         let times = &self.times[..used];
         let grow = times[0] - start > GROWING * (times[used - 2] - times[used - 1]);
-        let scale = |time: f64| if grow { (time - self.start + self.scale).ln() } else { time };
+        // Relative to the start of the step: logarithms of the times themselves meet where steps are far smaller than those.
+        let since = start - self.start + self.scale;
+        // In units of the step otherwise: products of differences of times alone may underflow.
+        let step = times[0] - start;
+        let scale = |time: f64| if grow { ((time - start) / since).ln_1p() } else { (time - start) / step };
         let mut scaled = self.times;
         for time in &mut scaled {
             *time = scale(*time);
@@ -222,6 +226,16 @@ mod tests {
             "{}",
             integral(&times, rate) / exact - 1.0
         );
+    }
+
+    #[test]
+    fn steps_that_shrink_to_the_rounding_of_the_time_and_grow_again_are_integrated() {
+        let mut times = vec![0.0, 1e-15, 1e-12];
+        for i in 0..12 {
+            times.push(times[times.len() - 1] + 1e-27 * 2.5_f64.powi(i));
+        }
+        let got = integral(&times, |_| 2.0);
+        assert!((got / (2.0 * times[times.len() - 1]) - 1.0).abs() < 1e-14, "{got}");
     }
 
     #[test]
