@@ -3,7 +3,7 @@
 use bytemuck::{cast_slice, cast_slice_mut};
 use flow_core::geometry::vectors::{
     add_real_symbol, add_scaled, apply_real_symbol, apply_symbol, dot, mean, mean_of_product, multiply_by,
-    multiply_by_conjugate, multiply_into, scale, scale_into,
+    multiply_by_conjugate, multiply_into, scale, scale_into, shift_into,
 };
 use flow_core::geometry::{Complex64, PeriodicGrid};
 use flow_core::operators::{Derivative, DerivativeFamily};
@@ -145,7 +145,7 @@ impl BendingFlow {
             multiply_shifted(&mut self.velocity, &at.curvature, &self.values, self.by_length);
         } else {
             let stretching = &mut self.stretching[0];
-            shift(stretching, &self.values, self.by_length);
+            shift_into(stretching, -self.by_length, &self.values);
             multiply_into(&mut self.velocity, &at.curvature, stretching);
         }
         let scale = -1.0 / at.length.powi(2);
@@ -247,12 +247,6 @@ fn add_tension(f: &mut [f64], [stretching, change, kappa]: [&[f64]; 3], length_m
         *f += stretching * change * inverse;
         *f -= stretching * kappa * length_motion * inverse;
     }
-}
-
-/// out = z − π.
-#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn shift(out: &mut [f64], z: &[f64], by_length: f64) {
-    out.iter_mut().zip(z).for_each(|(out, z)| *out = z - by_length);
 }
 
 /// f = κ(z − π).

@@ -75,7 +75,7 @@ impl ScatteredPoints {
     }
 
     /// Takes other parameters.
-    pub fn move_to(&mut self, places: &[f64]) {
+    fn move_to(&mut self, places: &[f64]) {
         let nodes = self.fine.nodes();
         let count = nodes as f64;
         let weights = |s: &f64| {
@@ -163,10 +163,7 @@ pub fn parameters_of_fractions(grading: &Grading, fractions: &[f64]) -> Vec<f64>
     };
     let mut found: Vec<f64> = fractions.iter().zip(&intervals).map(inverse).collect();
     let mut points = ScatteredPoints::new(nodes, &found);
-    for pass in 0..MOST_PASSES {
-        if pass > 0 {
-            points.move_to(&found);
-        }
+    for _ in 0..MOST_PASSES {
         let [shifts, slopes] = spectra.each_ref().map(|spectrum| points.values(spectrum));
         let mut worst = 0.0_f64;
         for (i, s) in found.iter_mut().enumerate() {
@@ -181,6 +178,7 @@ pub fn parameters_of_fractions(grading: &Grading, fractions: &[f64]) -> Vec<f64>
         if worst <= FOUND {
             break;
         }
+        points.move_to(&found);
     }
     found
 }

@@ -126,6 +126,29 @@ pub fn scale_into(out: &mut [f64], factor: f64, x: &[f64]) {
     }
 }
 
+/// out = Σ weight × vector, in one pass over the entries.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn combine(weights: &[f64], vectors: &[Vec<f64>], out: &mut [f64]) {
+    let (chunks, rest) = out.as_chunks_mut::<LANES>();
+    let whole = chunks.len() * LANES;
+    for (chunk, out) in chunks.iter_mut().enumerate() {
+        let mut sum = [0.0; LANES];
+        for (weight, vector) in weights.iter().zip(vectors) {
+            let vector = &vector[chunk * LANES..][..LANES];
+            for k in 0..LANES {
+                sum[k] += weight * vector[k];
+            }
+        }
+        *out = sum;
+    }
+    for (entry, out) in rest.iter_mut().enumerate() {
+        *out = 0.0;
+        for (weight, vector) in weights.iter().zip(vectors) {
+            *out += weight * vector[whole + entry];
+        }
+    }
+}
+
 /// out = x + shift.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 pub fn shift_into(out: &mut [f64], shift: f64, x: &[f64]) {

@@ -1,6 +1,6 @@
 //! Past states at unequal times, and the polynomials through them. See `THEORY.md`, eq. (I4).
 
-use crate::geometry::vectors::{add_scaled, scale_into};
+use crate::geometry::vectors::combine;
 
 /// The last states, newest first; storage is reused.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,9 +100,6 @@ impl History {
 
     /// Sum of the newest `points` states with `weights`.
     pub fn combine(&self, weights: &[f64], points: usize, out: &mut [f64]) {
-        scale_into(out, weights[0], &self.states[0]);
-        for (weight, state) in weights[1..points].iter().zip(&self.states[1..]) {
-            add_scaled(out, *weight, state);
-        }
+        combine(&weights[..points], &self.states, out);
     }
 }

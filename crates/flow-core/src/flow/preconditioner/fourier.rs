@@ -99,6 +99,7 @@ impl FourierSymbol {
 
     /// As [`FourierSymbol::set`] for the curvature alone: its blocks are numbers, inverted in whole vector registers.
     fn set_single(&mut self, flow: &mut GradientFlow, gamma: f64, first: usize, length: f64, tension: f64) {
+        // The copy of the symbols becomes that of the squares k²: `set` takes it anew each time.
         let (inverse, squares) = (&mut self.inverse[first..], &mut self.laplacian[first..]);
         for square in squares.iter_mut() {
             *square /= length * length;

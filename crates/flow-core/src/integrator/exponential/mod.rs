@@ -18,7 +18,7 @@ use super::integrals::Integrals;
 use super::linear_part::LinearPart;
 use super::pace::Pace;
 use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
-use crate::geometry::vectors::add_scaled_product;
+use crate::geometry::vectors::{add_scaled_product, combine};
 pub use memory::ExponentialMemory;
 use moments::{Moments, moments_at};
 use polynomials::{Coefficients, lagrange_basis, of_last_point, of_new_value};
@@ -120,7 +120,7 @@ impl Exponential {
         let nodes = self.nodes(points);
         let weights = lagrange(1.0, &nodes[..points]).value;
         let Self { missed, predicted_rest, rests, .. } = self;
-        sums::combine(&weights[..points], rests, missed);
+        combine(&weights[..points], rests, missed);
         missed.iter_mut().zip(&*predicted_rest).for_each(|(missed, rest)| *missed = rest - *missed);
         self.integrate(&of_last_point(&nodes[..points]), points);
         self.norm.norm(&self.scratch)

@@ -136,7 +136,8 @@ impl Moments {
         }
         (self.size, self.known) = (size, count);
         fill(size, rates, count, &mut self.decay, &mut self.values);
-        if let Some((rate, last)) = rates.last().zip(rates.len().checked_sub(1)) {
+        if let [pairs @ .., rate] = rates {
+            let last = pairs.len();
             let mut moments = [0.0; MOST_MOMENTS];
             self.decay[last] = moments_at(size * rate, &mut moments[..count]);
             self.values.iter_mut().zip(&moments[..count]).for_each(|(values, m)| values[last] = *m);

@@ -1,4 +1,4 @@
-//! Sums over past values and over moments, each in one pass over the entries.
+//! Sums over past values and moments, each in one pass over the entries.
 
 #![allow(clippy::inline_always)] // these bodies must be compiled inside each version of the loops
 
@@ -11,31 +11,20 @@ use super::polynomials::Coefficients;
 const LANES: usize = 8;
 type Lanes = [f64; LANES];
 
-/// out = Σ weight × vector.
-#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-pub fn combine(weights: &[f64], vectors: &[Vec<f64>], out: &mut [f64]) {
-    each_block(out, |block, out| {
-        let mut sum = [0.0; LANES];
-        for (weight, vector) in weights.iter().zip(vectors) {
-            add_scaled(&mut sum, *weight, &load(vector, block));
-        }
-        out.copy_from_slice(&sum[..out.len()]);
-    });
-}
-
 /// out = h Σ aᵢ mᵢ v with the coefficients a of `polynomial`.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 pub fn integrate(h: f64, polynomial: &[f64], moments: &[Vec<f64>], v: &[f64], out: &mut [f64]) {
-    each_block(out, |block, out| {
+    for (block, out) in out.chunks_mut(LANES).enumerate() {
+        let first = block * LANES;
         let mut sum = [0.0; LANES];
         for (coefficient, moment) in polynomial.iter().zip(moments) {
-            add_scaled(&mut sum, h * coefficient, &load(moment, block));
+            add_scaled(&mut sum, h * coefficient, &load(moment, first));
         }
-        let v = load(v, block);
+        let v = load(v, first);
         for (k, out) in out.iter_mut().enumerate() {
             *out = sum[k] * v[k];
         }
-    });
+    }
 }
 
 /// y = e^z y₀ + h Σᵢ mᵢ Σⱼ pⱼᵢ Nⱼ with the coefficients p of `basis`, and `at_one` = Σᵢⱼ pⱼᵢ Nⱼ.
@@ -76,14 +65,6 @@ pub fn extrapolate(
     }
 }
 
-/// Calls `of` with the first entry of each block and the block of `out`.
-#[inline(always)]
-fn each_block(out: &mut [f64], mut of: impl FnMut(usize, &mut [f64])) {
-    for (block, out) in out.chunks_mut(LANES).enumerate() {
-        of(block * LANES, out);
-    }
-}
-
 /// The entries from `first` on, zero beyond the last.
 #[inline(always)]
 fn load(vector: &[f64], first: usize) -> Lanes {
@@ -106,6 +87,7 @@ fn add_scaled(sum: &mut Lanes, factor: f64, x: &Lanes) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::vectors::combine;
 
     /// Values that differ from entry to entry, on a number of entries that is no multiple of the lanes.
     fn vector(seed: f64) -> Vec<f64> {
