@@ -1,6 +1,8 @@
 //! The step loop with its guards: finite values, falling energy, step sizes above rounding.
 
-use super::{Counters, Finish, INTEGRALS, Problem, Rejection, Rejections, Rest, Stepper};
+use super::{
+    Counters, Finish, INTEGRALS, Problem, Rejection, Rejections, Rest, Stepper, integrals::POSITIVE,
+};
 
 /// Settings of the loop.
 #[derive(Clone, Copy, Debug)]
@@ -234,7 +236,8 @@ impl<S: Stepper> Adaptive<S> {
                 self.stepper.refuse();
                 Err(Rejection::EnergyRise)
             }
-            Finish::Good { energy, dissipation, integral_rates } => {
+            Finish::Good { energy, dissipation, mut integral_rates } => {
+                integral_rates[POSITIVE] = self.stepper.dissipation(problem, dissipation);
                 let rounding = self.rounding(problem, energy);
                 let imbalance = self.imbalance(energy, rounding, integral_rates);
                 if imbalance > 1.0 {

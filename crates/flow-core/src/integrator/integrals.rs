@@ -10,8 +10,8 @@ use super::INTEGRALS;
 const POINTS: usize = 7;
 /// … and at least, once there are so many.
 const FEWEST_OF_MANY: usize = 5;
-/// The integral whose rate is never negative.
-const POSITIVE: usize = 0;
+/// The integral whose rate is never negative: of the dissipation.
+pub(super) const POSITIVE: usize = 0;
 /// Logarithm by which an interpolated positive rate may leave the range of the two rates beside it.
 const LEAST_SWING: f64 = 0.1;
 /// … and the most, a factor of a thousand.

@@ -63,6 +63,10 @@ pub trait Problem {
     fn energy_rounding(&self, _y: &[f64]) -> f64 {
         0.0
     }
+    /// Derivative of the energy along `direction` at the candidate finished last; none where it is not at hand.
+    fn energy_slope(&self, _direction: &[f64]) -> Option<f64> {
+        None
+    }
     /// f(y) at the candidate `y` finished last, into `rate`.
     fn finished_rate(&mut self, y: &[f64], rate: &mut [f64]) {
         self.rate(y, rate);
@@ -139,6 +143,11 @@ pub trait Stepper {
     /// Solves the candidate more exactly; false if that cannot be done.
     fn polish(&mut self, _problem: &mut dyn Problem, _counters: &mut Counters) -> bool {
         false
+    }
+    /// What the energy loses at the candidate along the trajectory of the method: its `dissipation`, but for the error of the
+    /// implicit solve.
+    fn dissipation(&mut self, _problem: &mut dyn Problem, dissipation: f64) -> f64 {
+        dissipation
     }
     /// The candidate of the last attempt.
     fn candidate(&mut self) -> &mut [f64];

@@ -137,6 +137,10 @@ impl Stepper for Multistep {
         self.stepper_mut().polish(problem, counters)
     }
 
+    fn dissipation(&mut self, problem: &mut dyn Problem, dissipation: f64) -> f64 {
+        self.stepper_mut().dissipation(problem, dissipation)
+    }
+
     fn candidate(&mut self) -> &mut [f64] {
         self.stepper_mut().candidate()
     }

@@ -218,6 +218,10 @@ impl<P: Problem> Problem for Clocked<'_, P> {
         self.during(Activity::Check, Activity::StepControl, |problem| problem.finish(time, y))
     }
 
+    fn energy_slope(&self, direction: &[f64]) -> Option<f64> {
+        self.problem.energy_slope(direction)
+    }
+
     fn energy_rounding(&self, y: &[f64]) -> f64 {
         self.problem.energy_rounding(y)
     }

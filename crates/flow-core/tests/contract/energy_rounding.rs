@@ -1,4 +1,4 @@
-//! The rounding of the energy, (I9).
+//! The rounding of the energy, (I9), and its derivative along a direction, (I6).
 
 use flow_core::flow::LinearSolver;
 use flow_core::integrator::{Clocked, Finish, Problem, Stopwatch};
@@ -40,6 +40,30 @@ fn the_rounding_of_the_energy_is_its_sum_and_clocks_pass_it_on() {
             let mut watch = Stopwatch::default();
             let clocked = Clocked::new(&mut membrane, &mut watch).energy_rounding(&y);
             assert_eq!(clocked.to_bits(), rounding.to_bits());
+        }
+    }
+}
+
+#[test]
+fn along_its_rate_the_energy_falls_by_the_dissipation_and_clocks_pass_that_on() {
+    for nodes in [32, 33] {
+        for (term, family) in every_flow() {
+            let state = fixed_blob().state(nodes, term.densities());
+            let mut membrane = Membrane::new(flow(term, family, state.layout), LinearSolver::Auto, 1, 0.0);
+            let mut y = spectral(state.layout, &state.y);
+            let Finish::Good { dissipation, .. } = membrane.finish(0.0, &mut y) else {
+                panic!("{term:?}, {family:?}")
+            };
+            let mut rate = vec![0.0; y.len()];
+            membrane.finished_rate(&y, &mut rate);
+            let slope = membrane.energy_slope(&rate).unwrap();
+            assert!(
+                (slope / dissipation + 1.0).abs() < 1e-10,
+                "{term:?}, {family:?}: {slope}, {dissipation}"
+            );
+            let mut watch = Stopwatch::default();
+            let clocked = Clocked::new(&mut membrane, &mut watch).energy_slope(&rate).unwrap();
+            assert_eq!(clocked.to_bits(), slope.to_bits());
         }
     }
 }

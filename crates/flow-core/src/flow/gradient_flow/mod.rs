@@ -3,9 +3,9 @@
 mod implicit;
 mod part_costs;
 mod parts;
+mod slopes;
 mod turning;
 
-use bytemuck::cast_slice;
 use implicit::drive;
 
 use super::curve_fields::CurveFields;
@@ -13,7 +13,6 @@ use super::density_mobility::DensityMobility;
 use super::energy_sum::{EnergySum, IntrinsicGradient};
 use super::flow_map::FlowMap;
 use super::normal_mobility::{MobilityError, NormalMobility};
-use crate::geometry::vectors::{dot, sum_of_moduli};
 use crate::geometry::{Complex64, Layout, SpectralLayout};
 
 pub use part_costs::{EvaluationCost, PartCosts};
@@ -162,24 +161,6 @@ impl GradientFlow {
     #[must_use]
     pub fn normal_force(&self) -> &[f64] {
         &self.force
-    }
-
-    /// Σ|∂𝓕/∂yᵢ|‖y‖ over the spectral state `y`, which must be the one evaluated last, with the norm of the field that yᵢ
-    /// belongs to: the relative rounding of the nodal fields changes the energy by up to this much.
-    #[must_use]
-    pub fn energy_sensitivity(&self, y: &[f64]) -> f64 {
-        let layout = self.spectral_layout();
-        let modes = layout.modes();
-        let by_field = self.gradient.spectra.chunks_exact(modes).zip(layout.spectra(y).chunks_exact(modes));
-        let fields = by_field.map(|(p, phi)| {
-            // All modes count twice, but for the mean and the sawtooth.
-            let [mean, last] = [0, modes - 1].map(|mode| 2.0 - self.map.multiplicity(mode));
-            let slopes = 2.0 * sum_of_moduli(p) - mean * p[0].norm() - last * p[modes - 1].norm();
-            let twice = 2.0 * dot(cast_slice(phi), cast_slice(phi));
-            let square = twice - mean * phi[0].norm_sqr() - last * phi[modes - 1].norm_sqr();
-            slopes * square.max(0.0).sqrt()
-        });
-        fields.sum::<f64>() + (self.gradient.by_length * y[layout.length_index()]).abs()
     }
 
     /// Normal velocity V at the state evaluated last.

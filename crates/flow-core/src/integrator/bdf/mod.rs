@@ -209,6 +209,18 @@ impl Stepper for Bdf {
         self.newton.correct(problem, &self.norm, &stage, &mut self.candidate, counters).is_some()
     }
 
+    /// −⟨∇𝓕, ẏ⟩ with the derivative ẏ of the polynomial that is the step. An error e that the solve leaves in stiff modes, where
+    /// ∇𝓕 is small, adds ⟨Hess·e, 𝓚 Hess·e⟩ to the dissipation of the state, and would die before the next step.
+    fn dissipation(&mut self, problem: &mut dyn Problem, dissipation: f64) -> f64 {
+        let gamma = self.pace.step / self.leading_coefficient();
+        for ((difference, y), constant) in self.difference.iter_mut().zip(&self.candidate).zip(&self.constant)
+        {
+            *difference = (y - constant) / gamma;
+        }
+        let slope = problem.energy_slope(&self.difference);
+        slope.map(|slope| -slope).filter(|lost| *lost > 0.0).unwrap_or(dissipation)
+    }
+
     fn gain(&self, integral_rates: [f64; INTEGRALS]) -> [f64; INTEGRALS] {
         self.integrals.gain(self.candidate_time(), integral_rates)
     }

@@ -270,6 +270,10 @@ impl Problem for Membrane {
         linear_part::set(part, &mut self.flow)
     }
 
+    fn energy_slope(&self, direction: &[f64]) -> Option<f64> {
+        Some(self.flow.energy_slope(direction))
+    }
+
     fn energy_rounding(&self, y: &[f64]) -> f64 {
         f64::EPSILON * self.flow.energy_sensitivity(y)
     }
