@@ -59,6 +59,11 @@ fn flows_that_end() {
 }
 
 #[test]
+fn flows_that_are_ill_posed() {
+    check(&times::ill_posed());
+}
+
+#[test]
 fn peaks_and_necks() {
     check(&data::curves());
 }

@@ -10,7 +10,7 @@ use std::process::ExitCode;
 use curveflow_tests::report::{Table, command};
 
 /// All tables, in the order of the document.
-const TABLES: [Table; 14] = [
+const TABLES: [Table; 15] = [
     ("epsilon", tables::epsilon),
     ("delta", tables::delta),
     ("penalty", tables::penalty),
@@ -19,6 +19,7 @@ const TABLES: [Table; 14] = [
     ("tolerance", tables::tolerance),
     ("ends", tables::ends),
     ("singular", tables::singular),
+    ("ill-posed", tables::ill_posed),
     ("curves", tables::curves),
     ("densities", tables::densities),
     ("scaling", tables::scaling),

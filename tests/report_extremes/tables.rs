@@ -52,6 +52,7 @@ fn name(end: End) -> &'static str {
         End::Contact => "contact",
         End::StepUnderflow => "`StepUnderflow`",
         End::TooManySteps => "`TooManySteps`",
+        End::Unresolved => "`ResolutionError`",
         End::Fault => "`TermFault` on the way",
         End::TooFewNodes => "`TooFewNodes`",
         End::TooManyNodes => "`TooManyNodes`",
@@ -92,6 +93,10 @@ pub fn ends() -> String {
 
 pub fn singular() -> String {
     cases(&times::singular())
+}
+
+pub fn ill_posed() -> String {
+    cases(&times::ill_posed())
 }
 
 pub fn curves() -> String {

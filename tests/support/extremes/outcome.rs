@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use flow_core::geometry::Embedding;
 use flow_core::integrator::IntegrationError;
-use flow_core::run::{Frame, Quiet, Record, Scene, SetupError, Simulation, StopReason};
+use flow_core::run::{Failure, Frame, Quiet, Record, Scene, SetupError, Simulation, StopReason};
 
 use crate::last;
 
@@ -21,6 +21,8 @@ pub enum End {
     StepUnderflow,
     /// `IntegrationError::TooManySteps`.
     TooManySteps,
+    /// `ResolutionError`.
+    Unresolved,
     /// A term refused the state met on the way (`TermFault`).
     Fault,
     /// `SetupError::TooFewNodes`.
@@ -71,18 +73,25 @@ pub fn measure(scene: &Scene) -> Outcome {
         Err(error) => outcome(of_setup(&error), error.to_string(), None),
         Ok(mut simulation) => {
             while simulation.step(&mut Quiet) {}
-            let failure = simulation.failure();
-            let record = simulation.into_record();
-            let end = match (&record.stop_reason, failure) {
-                (StopReason::EndTime, _) => End::EndTime,
-                (StopReason::Equilibrium, _) => End::Equilibrium,
-                (StopReason::Contact, _) => End::Contact,
-                (_, Some(IntegrationError::TooManySteps { .. })) => End::TooManySteps,
-                (_, Some(_)) => End::StepUnderflow,
-                (StopReason::Failed(_) | StopReason::Interrupted, None) => End::Fault,
+            let end = match (simulation.failure(), simulation.stop_reason()) {
+                (Some(failure), _) => of_failure(failure),
+                (None, Some(StopReason::EndTime)) => End::EndTime,
+                (None, Some(StopReason::Equilibrium)) => End::Equilibrium,
+                (None, Some(StopReason::Contact)) => End::Contact,
+                (None, stop) => unreachable!("nobody interrupts: {stop:?}"),
             };
+            let record = simulation.into_record();
             outcome(end, record.stop_reason.message().to_owned(), Some(record))
         }
+    }
+}
+
+fn of_failure(failure: &Failure) -> End {
+    match failure {
+        Failure::Integration(IntegrationError::TooManySteps { .. }) => End::TooManySteps,
+        Failure::Integration(_) => End::StepUnderflow,
+        Failure::Resolution(_) => End::Unresolved,
+        _ => End::Fault,
     }
 }
 

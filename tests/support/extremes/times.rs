@@ -26,6 +26,41 @@ pub fn ends() -> Vec<Case> {
     cases
 }
 
+/// Flows that are ill-posed, on nodes that the program chooses; differences that ask for very many nodes at first; and steps that
+/// shrink to the rounding of the time.
+#[must_use]
+pub fn ill_posed() -> Vec<Case> {
+    let ellipse = "curve = { shape = 'ellipse', semi_axes = [1.0, 0.1] }\n";
+    let compressed = format!(
+        "{ellipse}energy.length.tension = -1.0\ntime.end = 1.0\naccuracy = {{ tolerance = 1e-4, nodes = 'auto' }}"
+    );
+    let differences = format!(
+        "{ellipse}energy.bending.rigidity = 1.0\ntime.end = 1.0\n\
+         accuracy = {{ tolerance = 1e-6, nodes = 'auto', derivative = 'central-2' }}"
+    );
+    let separating = "curve = { shape = 'circle', radius = 1.0 }\nenergy.bending.rigidity = 1.0\n\
+        density = [{ name = 'protein', initial = '0.5 + 0.01*cos(2*pi*s) + 0.01*sin(4*pi*s)', mobility = 'diffusion' }]\n\
+        energy.local.expression = 'protein^2*(1 - protein)^2'\ntime.end = 10.0\n\
+        accuracy = { tolerance = 1e-4, nodes = 'auto' }";
+    vec![
+        Case::text("compression without bending, automatic nodes", &compressed, &[], End::Unresolved),
+        Case::text("a density that separates at no cost", separating, &[], End::Unresolved),
+        Case::text("central-2 at 1e-6, automatic nodes", &differences, &[], End::EndTime),
+        Case::text("a figure eight of held area, central-2", HELD_EIGHT, &[], End::StepUnderflow),
+    ]
+}
+
+/// Steps fall to 10⁻²⁴ at t = 3·10⁻¹² and grow again.
+const HELD_EIGHT: &str = "
+    curve = { shape = 'figure-eight', size = 1.0, turning_number = 0 }
+    density = [{ name = 'protein', initial = 1.0, mobility = 'exchange' }]
+    energy.area.pressure = -3.0
+    energy.membrane = { density = 'protein', epsilon = 2.200810134939843e-6 }
+    flow.normal_mobility = 'area-preserving'
+    time = { end = 4.447839545141853e-11, stop_at_equilibrium = true }
+    accuracy = { tolerance = 8.317339582317727e-6, nodes = 100, derivative = 'central-2', linear_solver = 'banded' }
+    ";
+
 /// Flows that end in a point, blow up, or have no solution.
 #[must_use]
 pub fn singular() -> Vec<Case> {

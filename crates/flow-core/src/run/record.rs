@@ -101,8 +101,8 @@ pub enum StopReason {
     Contact,
     /// An observer asked for it (signal, Ctrl-C, limit).
     Interrupted,
-    /// The integration failed; the last good state is the last frame. Holds the message, which is all that a file has of it;
-    /// [`Simulation::failure`](super::Simulation::failure) has the error of the integration.
+    /// The run failed; the last good state is the last frame. Holds the message, which is all that a file has of it;
+    /// [`Simulation::failure`](super::Simulation::failure) has the error.
     Failed(String),
 }
 

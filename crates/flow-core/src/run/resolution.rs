@@ -19,13 +19,18 @@ const NODE_DISTANCE_PER_EPSILON: f64 = 0.55;
 /// More nodes at a time than this factor are a guess.
 const MOST_GROWTH: f64 = 2.0;
 
-/// Part of the spectral `state`, the largest over its fields, that `nodes` nodes do not resolve: what the highest modes hold, or
-/// miss by the error of the derivative, relative to the field.
+/// Part of the spectral `state`, the largest over its fields, that `nodes` nodes do not resolve.
 pub fn unresolved(layout: Layout, state: &[f64], nodes: usize, family: DerivativeFamily) -> f64 {
+    least_resolved(layout, state, nodes, family).1
+}
+
+/// The field of the spectral `state` that `nodes` nodes resolve least, and the part of it that they do not: what the highest modes
+/// hold, or miss by the error of the derivative, relative to the field.
+pub fn least_resolved(layout: Layout, state: &[f64], nodes: usize, family: DerivativeFamily) -> (usize, f64) {
     let spectral = SpectralLayout::new(layout);
     let length = state[spectral.length_index()];
     let first_empty = 0.5 * (1.0 - EMPTY) * nodes as f64;
-    let mut worst = 0.0_f64;
+    let mut worst = (0, 0.0);
     for field in 0..layout.state_fields() {
         let spectrum = &state[spectral.field(field)];
         // A turn of the tangent per length, a thousandth of full coverage, as in the norm of the errors.
@@ -40,7 +45,10 @@ pub fn unresolved(layout: Layout, state: &[f64], nodes: usize, family: Derivativ
         // Only differences miss something of the modes below.
         let first = if family == DerivativeFamily::Fourier { first_empty.ceil() as usize } else { 0 };
         let missed: f64 = spectrum.chunks_exact(2).enumerate().skip(first).map(missed).sum();
-        worst = worst.max((missed / all).sqrt());
+        let part = (missed / all).sqrt();
+        if part > worst.1 {
+            worst = (field, part);
+        }
     }
     worst
 }
@@ -99,6 +107,7 @@ pub fn size_above(least: f64) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::PeriodicGrid;
 
     #[test]
     fn sizes_are_fast_and_large_enough() {
@@ -128,6 +137,23 @@ mod tests {
         assert_eq!(needed(1024, 1e-6), 192);
         assert_eq!(needed(128, 1e-6), 192);
         assert_eq!(needed(64, 1e-6), 128, "at most twice as many");
+    }
+
+    /// A curvature that jumps up and down, and one that does so from node to node.
+    #[test]
+    fn a_jump_is_resolved_but_for_a_hundredth_and_waves_as_short_as_the_nodes_are_not_at_all() {
+        let layout = Layout::new(MOST_NODES, 0);
+        let spectral = SpectralLayout::new(layout);
+        let part = |value: &dyn Fn(usize) -> f64| {
+            let nodal: Vec<f64> = (0..MOST_NODES).map(value).chain([TAU]).collect();
+            let mut state = vec![0.0; spectral.len()];
+            spectral.encode(&mut PeriodicGrid::new(MOST_NODES), &nodal, &mut state);
+            unresolved(layout, &state, MOST_NODES, DerivativeFamily::Fourier)
+        };
+        let jump = part(&|i| if i < MOST_NODES / 2 { 9.0 } else { -9.0 });
+        assert!(jump > 1e-3 && jump < 1e-2, "{jump:.1e}");
+        let waves = part(&|i| 9.0 * (0.45 * TAU * i as f64).sin());
+        assert!(waves > 0.99, "{waves}");
     }
 
     #[test]

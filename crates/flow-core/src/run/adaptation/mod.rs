@@ -3,17 +3,19 @@
 
 mod bound;
 mod crowds;
+mod error;
 
 use std::sync::Arc;
 
 use super::membrane::Membrane;
 use super::mesh::Mesh;
-use super::resolution::{LEAST_NODES, MOST_NODES, needed_nodes, unresolved};
+use super::resolution::{LEAST_NODES, MOST_NODES, least_resolved, needed_nodes};
 use super::scene::{Nodes, Scene};
 use super::setup::family;
-use crate::geometry::{Grading, resample};
+use crate::geometry::{Grading, Layout, resample};
 use crate::operators::DerivativeFamily;
 pub(super) use bound::unresolved_bound;
+pub use error::ResolutionError;
 
 /// Steps on the same nodes between looks at whether fewer would do.
 const LOOKS: u64 = 4;
@@ -27,6 +29,12 @@ const WORTHWHILE: f64 = 0.7;
 /// A new grading of as many nodes must lower what is not resolved by this factor.
 const BETTER: f64 = 0.3;
 
+/// Steps that the most nodes get to smooth what they do not resolve: kinks of the initial data.
+const PATIENCE: u64 = 32;
+/// Part of a field beyond which the most nodes are hopeless then: a jump leaves less than a hundredth of itself unresolved, and runs
+/// that sharpen one come to their end; waves as short as the distance of the nodes leave nearly all.
+const HOPELESS: f64 = 0.1;
+
 /// What a scene leaves to the program.
 #[derive(Clone, Debug)]
 pub struct Adaptation {
@@ -38,6 +46,8 @@ pub struct Adaptation {
     grades: bool,
     /// The derivatives on equidistant and on graded nodes.
     families: [DerivativeFamily; 2],
+    /// The names of the densities.
+    densities: Vec<String>,
 }
 
 /// The nodes that a run goes on with.
@@ -65,6 +75,8 @@ pub(super) enum Look {
     Change(Plan),
     /// They do not serve, and no others are allowed.
     Unresolved,
+    /// The most nodes have long been far from serving.
+    Hopeless(ResolutionError),
 }
 
 impl Adaptation {
@@ -78,14 +90,22 @@ impl Adaptation {
             counts,
             grades,
             families: [false, true].map(|graded| family(scene, graded)),
+            densities: scene.density.iter().map(|density| density.name.clone()).collect(),
         })
     }
 
-    /// Whether other nodes are better for the spectral `state` of `membrane`, which has been on those of `mesh` for `age` steps.
-    pub(super) fn look(&self, membrane: &mut Membrane, state: &[f64], mesh: &Mesh, age: u64) -> Look {
+    /// Whether other nodes are better for the spectral `state` of `membrane` at `time`, which has been on those of `mesh` for
+    /// `age` steps.
+    pub(super) fn look(
+        &self,
+        membrane: &mut Membrane,
+        (time, state): (f64, &[f64]),
+        mesh: &Mesh,
+        age: u64,
+    ) -> Look {
         let layout = membrane.layout();
         let family = self.families[usize::from(membrane.flow().grading().is_some())];
-        let part = unresolved(layout, state, layout.nodes(), family);
+        let (field, part) = least_resolved(layout, state, layout.nodes(), family);
         let resolved = part <= self.bound;
         let looks = if self.grades {
             age >= FIRST_LOOK && age.is_power_of_two()
@@ -111,7 +131,24 @@ impl Adaptation {
         if self.counts && (worthwhile(same, mesh.nodes) || (!resolved && same > mesh.nodes)) {
             return Look::Change(Plan { mesh: with_nodes(mesh, same), way: Way::SameParameters });
         }
-        if resolved { Look::Serve } else { Look::Unresolved }
+        if resolved {
+            Look::Serve
+        } else if self.counts && age >= PATIENCE && part > HOPELESS {
+            Look::Hopeless(self.hopeless(time, layout, (field, part)))
+        } else {
+            Look::Unresolved
+        }
+    }
+
+    /// Says that the nodes of `layout` leave `part` of `field` unresolved at `time`.
+    #[cold]
+    fn hopeless(&self, time: f64, layout: Layout, (field, part): (usize, f64)) -> ResolutionError {
+        let nodes = layout.nodes();
+        match (field, self.densities.get(field.wrapping_sub(1))) {
+            (0, _) => ResolutionError::Curvature { time, nodes, part },
+            (_, Some(density)) => ResolutionError::Density { time, nodes, density: density.clone(), part },
+            _ => ResolutionError::Metric { time, nodes, part },
+        }
     }
 }
 

@@ -19,6 +19,7 @@ use crate::integrator::{Adaptive, Clocked, Counters, IntegrationError, Multistep
 use crate::run::adaptation::Adaptation;
 use crate::run::diagnostics::Diagnostics;
 use crate::run::equilibrium::Equilibrium;
+use crate::run::failure::Failure;
 use crate::run::frames::{Start, frame};
 use crate::run::gauges::Gauges;
 use crate::run::membrane::Membrane;
@@ -82,7 +83,7 @@ pub struct Simulation {
     /// Self-crossings at the start, if more of them end the run.
     allowed_crossings: Option<usize>,
     stopped: Option<StopReason>,
-    failure: Option<IntegrationError>,
+    failure: Option<Failure>,
 }
 
 /// Runs `scene` to its end and returns its record.
@@ -127,18 +128,14 @@ impl Simulation {
         observer: &mut dyn Observer,
     ) {
         match (report, fault) {
-            (Err(error), _) => {
-                self.failure = Some(error);
-                self.stop(StopReason::Failed(error.to_string()));
-            }
+            (Err(error), _) => self.fail(error),
             (Ok(report), fault) => {
                 self.closure_defect = self.membrane.closure_defect();
                 self.log(&report);
                 self.save_frames();
                 let asked_to_stop = self.tell(&report, observer).is_break();
                 if let Some(fault) = fault {
-                    let message = format!("at t = {:.6e}: {fault}", report.time);
-                    self.stop(StopReason::Failed(message));
+                    self.fail(Failure::Term { time: report.time, fault });
                 } else if self.in_contact() {
                     self.stop(StopReason::Contact);
                 } else if self.at_rest(&report) {

@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use super::Simulation;
 use crate::integrator::{Counters, Stepper};
+use crate::run::failure::Failure;
 use crate::run::frames::frame;
 use crate::run::record::{Frame, Record, StepLog, StopReason};
 use crate::run::seconds::Seconds;
@@ -81,6 +82,12 @@ impl Simulation {
         self.record.counters = self.counters_with_time();
         self.record.stop_reason = reason.clone();
         self.stopped = Some(reason);
+    }
+
+    pub(super) fn fail(&mut self, failure: impl Into<Failure>) {
+        let failure = failure.into();
+        self.stop(StopReason::Failed(failure.to_string()));
+        self.failure = Some(failure);
     }
 
     /// Where the time went up to here.

@@ -18,17 +18,25 @@ impl Simulation {
         let clock = Instant::now();
         let age = self.counters().steps - self.remapped_at;
         let state = self.integration.stepper().state();
-        let served = match adaptation.look(&mut self.membrane, state, &self.mesh, age) {
+        let mut hopeless = None;
+        let served = match adaptation.look(&mut self.membrane, (time, state), &self.mesh, age) {
             Look::Serve => true,
             Look::Change(plan) => {
                 self.remap(&plan, time, energy).is_some() || plan.mesh.nodes < self.mesh.nodes
             }
             Look::Unresolved => false,
+            Look::Hopeless(error) => {
+                hopeless = Some(error);
+                false
+            }
         };
         self.record.counters.unresolved_steps += u64::from(!served);
         let seconds = clock.elapsed().as_secs_f64();
         self.record.counters.integration_seconds += seconds;
         self.clocks.remaps += seconds;
+        if let Some(error) = hopeless {
+            self.fail(error);
+        }
     }
 
     /// Carries the past states over to the nodes of `plan` and goes on with the same order and step size; none if a state cannot

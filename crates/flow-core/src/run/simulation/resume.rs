@@ -7,10 +7,11 @@ use serde::{Deserialize, Serialize};
 use super::Simulation;
 use super::clocks::Clocks;
 use crate::integrator::{
-    self, Adaptive, AdaptiveOptions, Counters, IntegrationError, Multistep, Problem, Rest, Stepper, Stopwatch,
+    self, Adaptive, AdaptiveOptions, Counters, Multistep, Problem, Rest, Stepper, Stopwatch,
 };
 use crate::run::adaptation::Adaptation;
 use crate::run::equilibrium::Equilibrium;
+use crate::run::failure::Failure;
 use crate::run::frames::Start;
 use crate::run::membrane::MembraneMemory;
 use crate::run::mesh::Mesh;
@@ -113,10 +114,10 @@ impl Simulation {
         self.stopped.as_ref()
     }
 
-    /// Why the time integration stopped before its end, if it did.
+    /// Why it failed, if it did.
     #[must_use]
-    pub fn failure(&self) -> Option<IntegrationError> {
-        self.failure
+    pub fn failure(&self) -> Option<&Failure> {
+        self.failure.as_ref()
     }
 
     /// Log of the steps so far.

@@ -7,9 +7,9 @@ use crate::integrator::{
     Adaptive, AdaptiveOptions, Finish, Integrals, Multistep, Problem, StepReport, Stepper,
 };
 use crate::run::adaptation::Adaptation;
+use crate::run::failure::Failure;
 use crate::run::gauges::Switched;
 use crate::run::mesh::Mesh;
-use crate::run::record::StopReason;
 
 impl Simulation {
     /// Goes on in the next gauge from the state at hand.
@@ -19,15 +19,12 @@ impl Simulation {
         let Some(switched) = self.gauges.switch(&mut self.membrane, state) else { return };
         let Switched { mut membrane, diagnostics, regraded } = match switched {
             Ok(switched) => switched,
-            Err(error) => {
-                return self.stop(StopReason::Failed(format!("at t = {:.6e}: {error}", report.time)));
-            }
+            Err(error) => return self.fail(Failure::Gauge { time: report.time, error }),
         };
         let mut state = regraded.state;
         let finish = membrane.finish(report.time, &mut state);
         let Finish::Good { energy, integral_rates, .. } = finish else {
-            let message = format!("at t = {:.6e}: the state is not finite in the next gauge", report.time);
-            return self.stop(StopReason::Failed(message)); // with the last state in the old gauge
+            return self.fail(Failure::NotFiniteInGauge { time: report.time }); // with the last state in the old gauge
         };
         (self.membrane, self.diagnostics) = (membrane, diagnostics);
         self.scratch = state;
