@@ -1,7 +1,8 @@
 //! The step loop with its guards: finite values, falling energy, step sizes above rounding.
 
 use super::{
-    Counters, Finish, INTEGRALS, Problem, Rejection, Rejections, Rest, Stepper, integrals::POSITIVE,
+    Counters, Finish, INTEGRALS, IntegrationError, Problem, Rejection, Rejections, Rest, Stepper,
+    integrals::POSITIVE,
 };
 
 /// Settings of the loop.
@@ -13,46 +14,6 @@ pub struct AdaptiveOptions {
     pub most_steps: u64,
     /// Part of the energy by which one step's balance of energy and dissipation may be off.
     pub energy_tolerance: f64,
-}
-
-/// Why the time integration stopped before its end.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-#[allow(missing_docs)] // each message names its fields
-pub enum IntegrationError {
-    /// The step size fell to the rounding of the time.
-    #[error(
-        "the step size fell to {step:.3e} at t = {time:.6e}, the rounding of the time (attempts rejected in a row: \
-         {rejections}, the last because {}); the flow may end here (a curve shrinking to a point, an \
-         ill-posed energy), or the tolerance asks for more than double precision: try a larger tolerance or \
-         more nodes", reason(*.cause)
-    )]
-    StepUnderflow { time: f64, step: f64, rejections: u64, cause: Rejection },
-    /// Two times lie so close together that no step fits between them.
-    #[error(
-        "the next time to stop at (the end, a switch, or one asked for) is {step:.3e} after t = {time:.6e}, and a step \
-         must be at least {least:.3e}; choose later times, or a smaller unit of time"
-    )]
-    StopTooNear { time: f64, step: f64, least: f64 },
-    /// The allowed number of steps is used up.
-    #[error("time.max_steps = {steps} is used up at t = {time:.6e}; raise it, or drop the key")]
-    TooManySteps { time: f64, steps: u64 },
-    /// The initial state cannot be evaluated.
-    #[error(
-        "the energy or its gradient is not finite at the initial state; check the expressions of the scene \
-         on the range of its initial curvature and densities"
-    )]
-    InitialStateNotFinite,
-}
-
-#[cold]
-fn reason(cause: Rejection) -> &'static str {
-    match cause {
-        Rejection::Error => "the local error was too large",
-        Rejection::Solver => "the implicit solve did not converge",
-        Rejection::EnergyRise => "the energy rose",
-        Rejection::NotFinite => "a value was not finite or the curve did not close",
-    }
 }
 
 /// What one accepted step did.
@@ -228,21 +189,19 @@ impl<S: Stepper> Adaptive<S> {
             }
         }
         match finish {
-            Finish::NotFinite => {
-                self.stepper.refuse();
-                Err(Rejection::NotFinite)
-            }
+            Finish::NotFinite => Err(self.refuse(Rejection::NotFinite)),
             Finish::Good { energy, .. } if self.rises(problem, energy) => {
-                self.stepper.refuse();
-                Err(Rejection::EnergyRise)
+                Err(self.refuse(Rejection::EnergyRise))
             }
             Finish::Good { energy, dissipation, mut integral_rates } => {
                 integral_rates[POSITIVE] = self.stepper.dissipation(problem, dissipation);
                 let rounding = self.rounding(problem, energy);
                 let imbalance = self.imbalance(energy, rounding, integral_rates);
+                if imbalance.is_nan() || !integral_rates.iter().all(|rate| rate.is_finite()) {
+                    return Err(self.refuse(Rejection::NotFinite));
+                }
                 if imbalance > 1.0 {
-                    self.stepper.refuse();
-                    return Err(Rejection::Error);
+                    return Err(self.refuse(Rejection::Error));
                 }
                 self.rest.watch(time, energy, rounding);
                 self.energy = energy;
@@ -254,6 +213,12 @@ impl<S: Stepper> Adaptive<S> {
                 Ok((energy, dissipation))
             }
         }
+    }
+
+    /// Throws the candidate away.
+    fn refuse(&mut self, cause: Rejection) -> Rejection {
+        self.stepper.refuse();
+        cause
     }
 
     /// A step of size `size` in which the state stays: the flow is at rest, and what moves it is rounding.

@@ -3,6 +3,7 @@
 
 mod adaptive;
 mod bdf;
+mod error;
 mod error_norm;
 mod exponential;
 mod gmres;
@@ -17,8 +18,9 @@ mod rest;
 mod statistics;
 mod stopwatch;
 
-pub use adaptive::{Adaptive, AdaptiveOptions, IntegrationError, StepReport};
+pub use adaptive::{Adaptive, AdaptiveOptions, StepReport};
 pub use bdf::Bdf;
+pub use error::IntegrationError;
 pub use error_norm::ErrorNorm;
 pub use exponential::{Exponential, ExponentialMemory};
 pub use gmres::{Gmres, Target};

@@ -1,5 +1,6 @@
 //! The laws of the discrete structure, each tested on every energy term with every derivative family.
 
+mod adaptive;
 mod closure_kernel;
 mod combinations;
 mod cyclic_banded;

@@ -1,0 +1,43 @@
+//! Why the step loop ends before its time.
+
+use super::Rejection;
+
+/// Why the time integration stopped before its end.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+#[allow(missing_docs)] // each message names its fields
+pub enum IntegrationError {
+    /// The step size fell to the rounding of the time.
+    #[error(
+        "the step size fell to {step:.3e} at t = {time:.6e}, the rounding of the time (attempts rejected in a row: \
+         {rejections}, the last because {}); the flow may end here (a curve shrinking to a point, an \
+         ill-posed energy), or the tolerance asks for more than double precision: try a larger tolerance or \
+         more nodes", reason(*.cause)
+    )]
+    StepUnderflow { time: f64, step: f64, rejections: u64, cause: Rejection },
+    /// Two times lie so close together that no step fits between them.
+    #[error(
+        "the next time to stop at (the end, a switch, or one asked for) is {step:.3e} after t = {time:.6e}, and a step \
+         must be at least {least:.3e}; choose later times, or a smaller unit of time"
+    )]
+    StopTooNear { time: f64, step: f64, least: f64 },
+    /// The allowed number of steps is used up.
+    #[error("time.max_steps = {steps} is used up at t = {time:.6e}; raise it, or drop the key")]
+    TooManySteps { time: f64, steps: u64 },
+    /// The initial state cannot be evaluated.
+    #[error(
+        "the energy or its gradient is not finite at the initial state; check the expressions of the scene \
+         on the range of its initial curvature and densities"
+    )]
+    InitialStateNotFinite,
+}
+
+#[cold]
+fn reason(cause: Rejection) -> &'static str {
+    match cause {
+        Rejection::Error => "the local error was too large",
+        Rejection::Solver => "the implicit solve did not converge",
+        Rejection::EnergyRise => "the energy rose",
+        Rejection::NotFinite => "a value was not finite or the curve did not close",
+    }
+}
