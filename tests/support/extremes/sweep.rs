@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use flow_core::run::Scene;
+use flow_core::run::scene::Nodes;
 
 use super::outcome::{Outcome, measure};
 
@@ -38,6 +39,8 @@ impl Random {
 
 /// Most steps of a run.
 pub const MOST_STEPS: u64 = 1500;
+/// Most steps of a run that chooses its nodes: up to 65,536 of them.
+pub const MOST_STEPS_ON_AUTOMATIC_NODES: u64 = 300;
 
 /// The text of a random scene; not all of them are scenes.
 pub fn text(random: &mut Random) -> String {
@@ -109,7 +112,10 @@ pub fn text(random: &mut Random) -> String {
 pub fn draw(random: &mut Random) -> (String, Outcome) {
     loop {
         let text = text(random);
-        if let Ok(scene) = Scene::parse(&text, "random.toml") {
+        if let Ok(mut scene) = Scene::parse(&text, "random.toml") {
+            if scene.accuracy.nodes == Nodes::Auto {
+                scene.time.max_steps = Some(MOST_STEPS_ON_AUTOMATIC_NODES);
+            }
             return (text, measure(&scene));
         }
     }
