@@ -32,7 +32,7 @@ const BETTER: f64 = 0.3;
 /// Steps that the most nodes get to smooth what they do not resolve: kinks of the initial data.
 const PATIENCE: u64 = 32;
 /// Part of a field beyond which the most nodes are hopeless then: a jump leaves less than a hundredth of itself unresolved, and runs
-/// that sharpen one come to their end; waves as short as the distance of the nodes leave nearly all.
+/// that sharpen one are not stopped; waves as short as the distance of the nodes leave nearly all.
 const HOPELESS: f64 = 0.1;
 
 /// What a scene leaves to the program.
