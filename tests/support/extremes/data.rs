@@ -30,12 +30,16 @@ pub fn curves() -> Vec<Case> {
         Case::text("a neck of 1/40 that opens", &neck(tension), &[], End::EndTime),
         Case::text("a neck of 1/40 that closes, stop on contact", &neck(&on_contact), &[], End::Contact),
         Case::text("a neck of 1/40 that crosses", &neck(stretched), &[("time.end", "2e-3")], End::EndTime),
+        Case::text("a curvature that jumps, which takes its time to rest", JUMP, &[], End::EndTime),
         Case::text("a curve with a corner", CORNER, &[], End::Curve),
     ]
 }
 
 const CORNER: &str =
     "curve = { shape = 'polar', r = '1 + abs(cos(phi))' }\nenergy.bending.rigidity = 1.0\ntime.end = 1.0";
+
+const JUMP: &str = "curve = { shape = 'polar', r = '1 + 0.1*sin(phi)*abs(sin(phi))' }\nenergy.bending.rigidity = 1.0\n\
+                    time = { end = 0.1, stop_at_equilibrium = true }\naccuracy = { tolerance = 1e-2, nodes = 'auto' }";
 
 /// The circle shrinks until κ = 2√2.
 const MEETING: &str = "

@@ -53,7 +53,7 @@ const UNSEEN: f64 = 0.1;
 const IMBALANCE: f64 = 15.0;
 /// Part of that from which on the next step is no larger.
 const WORTH_NO_GROWTH: f64 = 0.3;
-const MOST_POLISHES: usize = 6;
+const MOST_POLISHES: usize = 2;
 /// Corrections that leave more than this part of the dissipation are not worth another one.
 const UNMENDED: f64 = 0.5;
 /// The step size must stay above this many units in the last place of the time.
