@@ -1,6 +1,7 @@
 //! Order and size of the next step, and the watch over what limits it.
 
-use super::{Exponential, HIGHEST_ORDER, MOST_POINTS};
+use super::sums::Correction;
+use super::{Exponential, HIGHEST_ORDER, MOST_CHANGES, MOST_MOMENTS};
 use crate::integrator::Rejection;
 
 /// Safety factors on the error of order k − 1, k, k + 1: a change of order must pay.
@@ -36,43 +37,32 @@ impl Exponential {
 
     /// What a second correction would change of the candidate, over what the first one did.
     pub(super) fn contraction(&mut self) -> f64 {
-        let Self { missed, rests, predicted_rest, .. } = self;
-        missed
-            .iter_mut()
-            .zip(&rests[0])
-            .zip(&*predicted_rest)
-            .for_each(|((missed, now), then)| *missed = now - then);
-        let mut constant = [0.0; super::MOST_MOMENTS];
-        constant[0] = 1.0;
-        self.integrate(&constant, 0);
-        let again = self.norm.norm(&self.scratch);
+        let [mut weights, mut constant] = [[0.0; MOST_MOMENTS]; 2];
+        (weights[0], constant[0]) = (1.0, 1.0);
+        self.change(&[Correction { points: 1, weights, terms: 1, polynomial: constant }]);
+        let again = self.norm.norm(&self.changes[0]);
         self.scratch.iter_mut().zip(&self.candidate).zip(&self.predicted).for_each(|((d, y), p)| *d = y - p);
         again / self.norm.norm(&self.scratch).max(f64::MIN_POSITIVE)
+    }
+
+    /// Numbers of values of N whose differences tell the error at this order, and at its neighbours where the order may change
+    /// after this step.
+    pub(super) fn watched(&self) -> [usize; MOST_CHANGES - 1] {
+        let order = self.pace.order;
+        let neighbours = if self.pace.steps_at_order >= order { [order - 1, order + 2] } else { [0, 0] };
+        [order, order + 1, neighbours[0], neighbours[1]]
     }
 
     /// Whether the error of the candidate is below the tolerance; what it would be at other orders.
     pub(super) fn judge(&mut self) -> Result<(), Rejection> {
         let order = self.pace.order;
-        self.differences = [None; MOST_POINTS + 1];
-        self.differences[order] = Some(self.difference(order));
-        self.take_difference(order + 1);
         let error = self.error(order).unwrap_or(f64::NAN);
         if error <= self.tolerance {
-            if self.pace.steps_at_order >= order {
-                self.take_difference(order - 1);
-                self.take_difference(order + 2);
-            }
             return Ok(());
         }
         let growth = if error.is_finite() { self.growth(error, order, BIAS[1]) } else { 0.0 };
         self.fail(growth.clamp(0.2, 0.9));
         Err(Rejection::Error)
-    }
-
-    fn take_difference(&mut self, points: usize) {
-        if points > 0 && points <= self.states.len() {
-            self.differences[points] = Some(self.difference(points));
-        }
     }
 
     /// Estimate of the error at order `order`, for a power of the step size; none if too few values of N are known.

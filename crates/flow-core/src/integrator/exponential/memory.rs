@@ -70,7 +70,7 @@ impl Exponential {
             predicted: zero(),
             candidate: zero(),
             predicted_rest: zero(),
-            missed: zero(),
+            changes: std::array::from_fn(|_| zero()),
             scratch: zero(),
         };
         method.decompose();

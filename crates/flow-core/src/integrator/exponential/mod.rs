@@ -18,15 +18,18 @@ use super::integrals::Integrals;
 use super::linear_part::LinearPart;
 use super::pace::Pace;
 use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
-use crate::geometry::vectors::{add_scaled_product, combine};
+use crate::geometry::vectors::add_scaled_product;
 pub use memory::ExponentialMemory;
 use moments::{Moments, moments_at};
 use polynomials::{Coefficients, lagrange_basis, of_last_point, of_new_value};
+use sums::Correction;
 
 /// Most values of N that a prediction goes through.
 const HIGHEST_ORDER: usize = 6;
 /// Moments for polynomials through the value at the prediction, and one value more.
 const MOST_MOMENTS: usize = HIGHEST_ORDER + 2;
+/// Changes that are computed at once: the correction, and the differences that tell the error.
+const MOST_CHANGES: usize = 5;
 /// Accepted steps after which Λ is taken anew.
 const OLDEST_PART: usize = 20;
 
@@ -53,9 +56,10 @@ pub struct Exponential {
     differences: [Option<f64>; MOST_POINTS + 1],
     predicted: Vec<f64>,
     candidate: Vec<f64>,
-    /// N at the prediction, and what it differs by from what the last values make of it.
+    /// N at the prediction.
     predicted_rest: Vec<f64>,
-    missed: Vec<f64>,
+    /// What the corrector changes, and what it would with a value less of each number that is watched.
+    changes: [Vec<f64>; MOST_CHANGES],
     scratch: Vec<f64>,
 }
 
@@ -98,32 +102,49 @@ impl Exponential {
         }
     }
 
-    /// The prediction; `scratch` is then what the last values make of N there.
     fn predict(&mut self) {
         let points = self.pace.order;
         let basis = lagrange_basis(&self.nodes(points)[..points]);
-        let Self { predicted, scratch, moments, bases, rests, pace, .. } = self;
-        let functions = (moments.decay(), moments.values());
-        sums::extrapolate(pace.step, &basis[..points], functions, (&bases[0], rests), predicted, scratch);
+        let Self { predicted, moments, bases, rests, pace, .. } = self;
+        sums::extrapolate(pace.step, &basis[..points], moments.blocks(), (&bases[0], rests), predicted);
         self.part.from_eigenbasis(predicted);
     }
 
-    /// `scratch` = h Σ aᵢ mᵢ(hΛ) v in the original basis, v = `missed` in the eigenbasis.
-    fn integrate(&mut self, polynomial: &Coefficients, degree: usize) {
-        let Self { scratch, missed, moments, pace, .. } = self;
-        sums::integrate(pace.step, &polynomial[..=degree], moments.values(), missed, scratch);
-        self.part.from_eigenbasis(scratch);
+    /// The candidate by the last `order` values of N and the one at the prediction; the differences that tell its error.
+    fn correct(&mut self) {
+        let order = self.pace.order;
+        let (watched, known) = (self.watched(), self.states.len());
+        let watched = || watched.into_iter().filter(|points| (1..=known).contains(points));
+        let mut corrections = [self.correction(order, of_new_value); MOST_CHANGES];
+        let mut count = 1;
+        for points in watched() {
+            corrections[count] = self.correction(points, of_last_point);
+            count += 1;
+        }
+        self.change(&corrections[..count]);
+        let Self { candidate, predicted, changes, .. } = self;
+        for ((y, predicted), change) in candidate.iter_mut().zip(predicted).zip(&changes[0]) {
+            *y = *predicted + change;
+        }
+        self.differences = [None; MOST_POINTS + 1];
+        for (points, change) in watched().zip(&self.changes[1..]) {
+            self.differences[points] = Some(self.norm.norm(change));
+        }
     }
 
-    /// By how much a correction with the last `points` values of N and the one at the prediction differs from one with a value less.
-    fn difference(&mut self, points: usize) -> f64 {
+    /// A change by what the last `points` values of N miss at the prediction, along the `polynomial` for their θ.
+    fn correction(&self, points: usize, polynomial: fn(&[f64]) -> Coefficients) -> Correction {
         let nodes = self.nodes(points);
-        let weights = lagrange(1.0, &nodes[..points]).value;
-        let Self { missed, predicted_rest, rests, .. } = self;
-        combine(&weights[..points], rests, missed);
-        missed.iter_mut().zip(&*predicted_rest).for_each(|(missed, rest)| *missed = rest - *missed);
-        self.integrate(&of_last_point(&nodes[..points]), points);
-        self.norm.norm(&self.scratch)
+        let mut weights = [0.0; MOST_MOMENTS];
+        weights[..points].copy_from_slice(&lagrange(1.0, &nodes[..points]).value[..points]);
+        Correction { points, weights, terms: points + 1, polynomial: polynomial(&nodes[..points]) }
+    }
+
+    /// `changes` by the `corrections`, in the original basis.
+    fn change(&mut self, corrections: &[Correction]) {
+        let Self { part, moments, predicted_rest, rests, changes, pace, .. } = self;
+        sums::correct(pace.step, corrections, moments.blocks(), (predicted_rest, rests), changes);
+        changes[..corrections.len()].iter_mut().for_each(|change| part.from_eigenbasis(change));
     }
 }
 
@@ -179,15 +200,9 @@ impl Stepper for Exponential {
         self.predict();
         problem.rate(&self.predicted, &mut self.candidate);
         counters.right_hand_sides += 1;
-        let Self { part, predicted, candidate, predicted_rest, missed, scratch, .. } = self;
-        std::mem::swap(missed, scratch); // what the last values make of N
+        let Self { part, predicted, candidate, predicted_rest, scratch, .. } = self;
         decompose(part, predicted, candidate, predicted_rest, scratch);
-        missed.iter_mut().zip(&*predicted_rest).for_each(|(missed, rest)| *missed = rest - *missed);
-        self.integrate(&of_new_value(&self.nodes(self.pace.order)[..self.pace.order]), self.pace.order);
-        for ((y, predicted), correction) in self.candidate.iter_mut().zip(&self.predicted).zip(&self.scratch)
-        {
-            *y = predicted + correction;
-        }
+        self.correct();
         self.judge()
     }
 

@@ -11,8 +11,8 @@ use crate::expression::vector_math::exp;
 const SMALL: f64 = 2.0;
 /// Terms of that sum, to rounding.
 const TERMS: usize = 22;
-/// Entries whose moments are computed at a time.
-const LANES: usize = 8;
+/// Pairs of entries whose moments are computed at a time.
+pub const LANES: usize = 8;
 
 /// e^z, and m₀ … mₙ₋₁ at each z, n the length of `moments`.
 #[inline(always)]
@@ -69,32 +69,23 @@ fn by_series(z: [f64; LANES], moments: &mut [[f64; LANES]]) {
     }
 }
 
-/// Into `decay` and the first `count` of `values`, at z = `size` × rate for each of the `rates`, of which each stands twice, for a
-/// real and an imaginary part; the last one, alone, is not looked at.
-#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn fill(size: f64, rates: &[f64], count: usize, decay: &mut [f64], values: &mut [Vec<f64>]) {
-    let mut moments = [[0.0; LANES]; MOST_MOMENTS];
-    let pairs = rates.len() / 2;
-    for start in (0..pairs).step_by(LANES) {
-        let width = LANES.min(pairs - start);
-        let z = std::array::from_fn(|k| size * rates[2 * (start + k.min(width - 1))]);
-        let decays = moments_of(z, &mut moments[..count]);
-        let entries = 2 * start..2 * (start + width);
-        twice(&decays, &mut decay[entries.clone()]);
-        for (values, moment) in values.iter_mut().zip(&moments[..count]) {
-            twice(moment, &mut values[entries.clone()]);
-        }
-    }
+/// The functions of [`LANES`] pairs of entries.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Block {
+    /// e^z.
+    pub decay: [f64; LANES],
+    /// mᵢ by their index.
+    pub moments: [[f64; LANES]; MOST_MOMENTS],
 }
 
-/// Each of the first values in turn, twice.
-#[inline(always)]
-fn twice(values: &[f64; LANES], out: &mut [f64]) {
-    if let Ok(out) = <&mut [f64; 2 * LANES]>::try_from(&mut *out) {
-        *out = std::array::from_fn(|k| values[k / 2]);
-        return;
+/// The first `count` moments at z = `size` × rate for each of the `rates`, of which each stands twice, for a real and an imaginary
+/// part, but for the last one, which is alone.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn fill(size: f64, rates: &[f64], count: usize, blocks: &mut [Block]) {
+    for (block, target) in blocks.iter_mut().enumerate() {
+        let rate = |k: usize| rates[(2 * (block * LANES + k)).min(rates.len() - 1)];
+        target.decay = moments_of(std::array::from_fn(|k| size * rate(k)), &mut target.moments[..count]);
     }
-    out.iter_mut().enumerate().for_each(|(k, out)| *out = values[k / 2]);
 }
 
 /// e^z, and m₀ … mₙ₋₁ at one z, n the length of `moments`.
@@ -111,15 +102,14 @@ pub struct Moments {
     /// Step size, and how many of the moments are known.
     size: f64,
     known: usize,
-    decay: Vec<f64>,
-    values: Vec<Vec<f64>>,
+    blocks: Vec<Block>,
 }
 
 impl Moments {
     /// Room for `entries` entries.
     pub fn new(entries: usize) -> Self {
-        let values = vec![vec![0.0; entries]; MOST_MOMENTS];
-        Self { size: 0.0, known: 0, decay: vec![0.0; entries], values }
+        let blocks = entries.div_ceil(2).div_ceil(LANES);
+        Self { size: 0.0, known: 0, blocks: vec![Block::default(); blocks] }
     }
 
     /// The rates have changed.
@@ -135,29 +125,34 @@ impl Moments {
             return;
         }
         (self.size, self.known) = (size, count);
-        fill(size, rates, count, &mut self.decay, &mut self.values);
-        if let [pairs @ .., rate] = rates {
-            let last = pairs.len();
-            let mut moments = [0.0; MOST_MOMENTS];
-            self.decay[last] = moments_at(size * rate, &mut moments[..count]);
-            self.values.iter_mut().zip(&moments[..count]).for_each(|(values, m)| values[last] = *m);
-        }
+        fill(size, rates, count, &mut self.blocks);
     }
 
-    /// e^z.
-    pub fn decay(&self) -> &[f64] {
-        &self.decay
-    }
-
-    /// mᵢ by their index.
-    pub fn values(&self) -> &[Vec<f64>] {
-        &self.values
+    /// By pairs of entries.
+    pub fn blocks(&self) -> &[Block] {
+        &self.blocks
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn each_entry_finds_the_moments_of_its_rate() {
+        // Pairs in one block and a bit of the next, and one entry more.
+        let mut rates: Vec<f64> = (0..2 * LANES + 6).map(|entry| -((entry / 2) as f64)).collect();
+        rates.push(0.7);
+        let mut moments = Moments::new(rates.len());
+        moments.set(0.5, &rates, 4);
+        for (entry, rate) in rates.iter().enumerate() {
+            let (block, lane) = (entry / 2 / LANES, entry / 2 % LANES);
+            let mut alone = [0.0; 4];
+            let decay = moments_at(0.5 * rate, &mut alone);
+            assert_eq!(moments.blocks()[block].decay[lane], decay);
+            assert_eq!([0, 1, 2, 3].map(|i| moments.blocks()[block].moments[i][lane]), alone);
+        }
+    }
 
     /// By Gauss–Legendre quadrature on many pieces.
     fn reference(z: f64, i: i32) -> f64 {
