@@ -32,17 +32,34 @@ pub fn extrapolate(
     (start, rests): (&[f64], &[Vec<f64>]),
     y: &mut [f64],
 ) {
-    for (index, block) in blocks.iter().enumerate() {
-        let first = index * ENTRIES;
-        let (decay, start) = (twice(&block.decay), load(start, first));
+    let ((start, start_end), past) = (split(start), Past::of(rests, basis.len()));
+    let (y, y_end) = y.as_chunks_mut();
+    let (blocks, block_of_end) = blocks.split_at(y.len());
+    extrapolate_blocks(h, basis, blocks, (start, past.whole()), y);
+    let mut end = [[0.0; ENTRIES]];
+    extrapolate_blocks(h, basis, block_of_end, (&[start_end], &past.ends()), &mut end);
+    y_end.copy_from_slice(&end[0][..y_end.len()]);
+}
+
+#[inline(always)]
+fn extrapolate_blocks(
+    h: f64,
+    basis: &[Coefficients],
+    blocks: &[Block],
+    (start, past): (&[Entries], &[&[Entries]]),
+    y: &mut [Entries],
+) {
+    let terms = basis.len();
+    for ((index, block), (start, y)) in blocks.iter().enumerate().zip(start.iter().zip(y)) {
+        let decay = twice(&block.decay);
         let mut sum: Entries = std::array::from_fn(|k| decay[k] * start[k]);
-        for (polynomial, rest) in basis.iter().zip(rests) {
-            let (weight, rest) = (twice(&integral(h, &polynomial[..basis.len()], block)), load(rest, first));
+        for (polynomial, past) in basis.iter().zip(past) {
+            let (weight, past) = (twice(&integral(h, &polynomial[..terms], block)), &past[index]);
             for k in 0..ENTRIES {
-                sum[k] += weight[k] * rest[k];
+                sum[k] += weight[k] * past[k];
             }
         }
-        store(&sum, y, first);
+        *y = sum;
     }
 }
 
@@ -56,26 +73,41 @@ pub fn correct(
     changes: &mut [Vec<f64>],
 ) {
     let points = corrections.iter().map(|correction| correction.points).max().unwrap_or(0);
-    let mut past = [[0.0; ENTRIES]; MOST_MOMENTS];
-    for (index, block) in blocks.iter().enumerate() {
-        let first = index * ENTRIES;
-        let new = load(new, first);
-        for (past, rest) in past[..points].iter_mut().zip(rests) {
-            *past = load(rest, first);
-        }
-        for (correction, change) in corrections.iter().zip(&mut *changes) {
-            let mut missed = new;
-            for (weight, past) in correction.weights[..correction.points].iter().zip(&past) {
-                for k in 0..ENTRIES {
-                    missed[k] -= weight * past[k];
-                }
-            }
-            let factor = twice(&integral(h, &correction.polynomial[..correction.terms], block));
+    let ((new, new_end), past) = (split(new), Past::of(rests, points));
+    let (blocks, block_of_end) = blocks.split_at(new.len());
+    for (correction, change) in corrections.iter().zip(changes) {
+        let (change, change_end) = change.as_chunks_mut();
+        correct_blocks(h, correction, blocks, (new, past.whole()), change);
+        let mut end = [[0.0; ENTRIES]];
+        correct_blocks(h, correction, block_of_end, (&[new_end], &past.ends()), &mut end);
+        change_end.copy_from_slice(&end[0][..change_end.len()]);
+    }
+}
+
+#[inline(always)]
+fn correct_blocks(
+    h: f64,
+    correction: &Correction,
+    blocks: &[Block],
+    (new, past): (&[Entries], &[&[Entries]]),
+    change: &mut [Entries],
+) {
+    let (weights, polynomial) =
+        (&correction.weights[..correction.points], &correction.polynomial[..correction.terms]);
+    let past = &past[..weights.len()];
+    for ((index, block), (new, change)) in blocks.iter().enumerate().zip(new.iter().zip(change)) {
+        let mut missed = *new;
+        for (weight, past) in weights.iter().zip(past) {
+            let past = &past[index];
             for k in 0..ENTRIES {
-                missed[k] *= factor[k];
+                missed[k] -= weight * past[k];
             }
-            store(&missed, change, first);
         }
+        let factor = twice(&integral(h, polynomial, block));
+        for k in 0..ENTRIES {
+            missed[k] *= factor[k];
+        }
+        *change = missed;
     }
 }
 
@@ -97,27 +129,42 @@ fn twice(values: &[f64; LANES]) -> Entries {
     std::array::from_fn(|k| values[k / 2])
 }
 
-/// The entries from `first` on, zero beyond the last.
-#[inline(always)]
-fn load(vector: &[f64], first: usize) -> Entries {
-    let rest = &vector[first..];
-    if let Some(entries) = rest.first_chunk::<ENTRIES>() {
-        return *entries;
-    }
-    let mut entries = [0.0; ENTRIES];
-    entries[..rest.len()].copy_from_slice(rest);
-    entries
+/// Past values by blocks of entries. That their number is not known to the compiler keeps it from turning the loops inside out,
+/// with gathers and scatters over the blocks.
+struct Past<'a> {
+    points: usize,
+    whole: [&'a [Entries]; MOST_MOMENTS],
+    ends: [Entries; MOST_MOMENTS],
 }
 
-/// Writes them back.
-#[inline(always)]
-fn store(entries: &Entries, vector: &mut [f64], first: usize) {
-    let rest = &mut vector[first..];
-    if let Some(target) = rest.first_chunk_mut::<ENTRIES>() {
-        *target = *entries;
-    } else {
-        rest.copy_from_slice(&entries[..rest.len()]);
+impl<'a> Past<'a> {
+    #[inline(always)]
+    fn of(rests: &'a [Vec<f64>], points: usize) -> Self {
+        let mut past = Self { points, whole: [&[]; MOST_MOMENTS], ends: [[0.0; ENTRIES]; MOST_MOMENTS] };
+        for (j, rest) in rests[..points].iter().enumerate() {
+            (past.whole[j], past.ends[j]) = split(rest);
+        }
+        past
     }
+
+    #[inline(always)]
+    fn whole(&self) -> &[&'a [Entries]] {
+        &self.whole[..self.points]
+    }
+
+    #[inline(always)]
+    fn ends(&self) -> [&[Entries]; MOST_MOMENTS] {
+        std::array::from_fn(|j| std::slice::from_ref(&self.ends[j]))
+    }
+}
+
+/// Whole blocks, and what is left, filled up with zeros.
+#[inline(always)]
+fn split(vector: &[f64]) -> (&[Entries], Entries) {
+    let (whole, rest) = vector.as_chunks();
+    let mut end = [0.0; ENTRIES];
+    end[..rest.len()].copy_from_slice(rest);
+    (whole, end)
 }
 
 #[cfg(test)]
