@@ -154,8 +154,8 @@ impl Stepper for OneStep {
         &mut self.candidate
     }
 
-    fn gain(&self, integral_rates: [f64; INTEGRALS]) -> [f64; INTEGRALS] {
-        self.integrals.gain(self.time + self.step, integral_rates)
+    fn integrals_ahead(&self, rates: [f64; INTEGRALS]) -> Integrals {
+        self.integrals.after(self.time + self.step, rates)
     }
 
     fn hold(&mut self, size: f64) {
@@ -173,12 +173,12 @@ impl Stepper for OneStep {
         self.step *= 0.5;
     }
 
-    fn accept(&mut self, _: &mut dyn Problem, integral_rates: [f64; INTEGRALS]) {
+    fn accept(&mut self, _: &mut dyn Problem, integrals: Integrals) {
         self.start = self.time;
         self.time += self.step;
         self.before.copy_from_slice(&self.state);
         self.state.copy_from_slice(&self.candidate);
-        self.integrals.push(self.time, integral_rates);
+        self.integrals = integrals;
         self.formula.accepted();
         let factor = self.controller.accepted(self.error_norm, self.failed);
         if !(1.0..self.formula.worthwhile_growth()).contains(&factor) {

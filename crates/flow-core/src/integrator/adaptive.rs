@@ -196,7 +196,8 @@ impl<S: Stepper> Adaptive<S> {
             Finish::Good { energy, dissipation, mut integral_rates } => {
                 integral_rates[POSITIVE] = self.stepper.dissipation(problem, dissipation);
                 let rounding = self.rounding(problem, energy);
-                let imbalance = self.imbalance(energy, rounding, integral_rates);
+                let integrals = self.stepper.integrals_ahead(integral_rates);
+                let imbalance = self.imbalance(energy, rounding, integrals.values());
                 if imbalance.is_nan() || !integral_rates.iter().all(|rate| rate.is_finite()) {
                     return Err(self.refuse(Rejection::NotFinite));
                 }
@@ -205,7 +206,7 @@ impl<S: Stepper> Adaptive<S> {
                 }
                 self.rest.watch(time, energy, rounding);
                 self.energy = energy;
-                self.stepper.accept(problem, integral_rates);
+                self.stepper.accept(problem, integrals);
                 problem.accepted(time, self.stepper.integrals());
                 if imbalance > WORTH_NO_GROWTH {
                     self.stepper.limit_step_size(size);
@@ -243,10 +244,9 @@ impl<S: Stepper> Adaptive<S> {
     }
 
     /// How far the energy lost in the step to the candidate and the integral of the dissipation are apart: far, if the
-    /// step is too large for a transient that the norm of the state does not see.
-    /// In units of what is allowed.
-    fn imbalance(&self, energy: f64, rounding: f64, integral_rates: [f64; INTEGRALS]) -> f64 {
-        let [dissipated, ..] = self.stepper.gain(integral_rates);
+    /// step is too large for a transient that the norm of the state does not see. In units of what is allowed.
+    fn imbalance(&self, energy: f64, rounding: f64, integrals: [f64; INTEGRALS]) -> f64 {
+        let dissipated = integrals[POSITIVE] - self.stepper.integrals()[POSITIVE];
         let scale = self.energy.abs().max(energy.abs());
         let allowed = IMBALANCE * self.options.energy_tolerance * scale + rounding;
         (energy - self.energy + dissipated).abs() / allowed.max(f64::MIN_POSITIVE)

@@ -90,6 +90,14 @@ impl Integrals {
         self.values[0]
     }
 
+    /// Those at a later time, with the rates there.
+    #[must_use]
+    pub fn after(&self, time: f64, rates: [f64; INTEGRALS]) -> Self {
+        let mut after = self.clone();
+        after.push(time, rates);
+        after
+    }
+
     /// Takes the rates at a new time.
     pub fn push(&mut self, time: f64, rates: [f64; INTEGRALS]) {
         self.times.rotate_right(1);
@@ -104,14 +112,6 @@ impl Integrals {
         self.filled = (self.filled + 1).min(POINTS);
         self.values[1] = self.values[0];
         self.values[0] = self.at(time);
-    }
-
-    /// What a step to `time` adds, with the rates `rates` there.
-    #[must_use]
-    pub fn gain(&self, time: f64, rates: [f64; INTEGRALS]) -> [f64; INTEGRALS] {
-        let mut after = self.clone();
-        after.push(time, rates);
-        std::array::from_fn(|i| after.values[0][i] - self.values[0][i])
     }
 
     /// Goes to a new time without a change: rates before it say nothing of those after.
@@ -149,8 +149,13 @@ impl Integrals {
         let factors = lagrange_factors(points);
         for (node, weight) in GAUSS {
             let weights = lagrange_values(scale(start + node * (time - start)), points, &factors);
-            for (i, value) in values.iter_mut().enumerate() {
-                let sum = scaled_rates[..used].iter().zip(weights).map(|(r, w)| w * r[i]).sum::<f64>();
+            let mut sums = [0.0; INTEGRALS];
+            for (rates, weight) in scaled_rates[..used].iter().zip(weights) {
+                for (sum, rate) in sums.iter_mut().zip(rates) {
+                    *sum += weight * rate;
+                }
+            }
+            for (i, (value, sum)) in values.iter_mut().zip(sums).enumerate() {
                 let ends = [scaled_rates[0][i], scaled_rates[1][i]];
                 let rate = match i {
                     POSITIVE if logarithmic => near(sum, ends, LEAST_SWING).exp(),

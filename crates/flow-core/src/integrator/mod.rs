@@ -153,14 +153,14 @@ pub trait Stepper {
     }
     /// The candidate of the last attempt.
     fn candidate(&mut self) -> &mut [f64];
-    /// What the integrals gain in the step to the candidate, with their rates at it.
-    fn gain(&self, integral_rates: [f64; INTEGRALS]) -> [f64; INTEGRALS];
+    /// The integrals at the candidate, with their rates there.
+    fn integrals_ahead(&self, rates: [f64; INTEGRALS]) -> Integrals;
     /// Takes a step of size `size` in which the state and the integrals stay.
     fn hold(&mut self, size: f64);
     /// Throws the candidate away for a cause found outside and reduces the step size.
     fn refuse(&mut self);
-    /// Accepts the candidate, which `problem` has finished last, with the integral rates at it.
-    fn accept(&mut self, problem: &mut dyn Problem, integral_rates: [f64; INTEGRALS]);
+    /// Accepts the candidate, which `problem` has finished last, with the integrals at it.
+    fn accept(&mut self, problem: &mut dyn Problem, integrals: Integrals);
     /// State at a time within the last accepted step.
     fn interpolate(&self, time: f64, y: &mut [f64]) -> [f64; INTEGRALS];
 }

@@ -145,8 +145,8 @@ impl Stepper for Multistep {
         self.stepper_mut().candidate()
     }
 
-    fn gain(&self, integral_rates: [f64; INTEGRALS]) -> [f64; INTEGRALS] {
-        self.stepper().gain(integral_rates)
+    fn integrals_ahead(&self, rates: [f64; INTEGRALS]) -> Integrals {
+        self.stepper().integrals_ahead(rates)
     }
 
     fn hold(&mut self, size: f64) {
@@ -157,8 +157,8 @@ impl Stepper for Multistep {
         self.stepper_mut().refuse();
     }
 
-    fn accept(&mut self, problem: &mut dyn Problem, integral_rates: [f64; INTEGRALS]) {
-        self.stepper_mut().accept(problem, integral_rates);
+    fn accept(&mut self, problem: &mut dyn Problem, integrals: Integrals) {
+        self.stepper_mut().accept(problem, integrals);
     }
 
     fn interpolate(&self, time: f64, y: &mut [f64]) -> [f64; INTEGRALS] {

@@ -221,8 +221,8 @@ impl Stepper for Bdf {
         slope.map(|slope| -slope).filter(|lost| *lost > 0.0).unwrap_or(dissipation)
     }
 
-    fn gain(&self, integral_rates: [f64; INTEGRALS]) -> [f64; INTEGRALS] {
-        self.integrals.gain(self.candidate_time(), integral_rates)
+    fn integrals_ahead(&self, rates: [f64; INTEGRALS]) -> Integrals {
+        self.integrals.after(self.candidate_time(), rates)
     }
 
     fn hold(&mut self, size: f64) {
@@ -242,12 +242,12 @@ impl Stepper for Bdf {
         self.pace.fail(0.5);
     }
 
-    fn accept(&mut self, _: &mut dyn Problem, integral_rates: [f64; INTEGRALS]) {
+    fn accept(&mut self, _: &mut dyn Problem, integrals: Integrals) {
         let time = self.candidate_time();
         self.pace.accept();
         self.plan();
         self.history.push(time, &self.candidate);
-        self.integrals.push(time, integral_rates);
+        self.integrals = integrals;
     }
 
     fn interpolate(&self, time: f64, y: &mut [f64]) -> [f64; INTEGRALS] {

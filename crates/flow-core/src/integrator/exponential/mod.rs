@@ -210,8 +210,8 @@ impl Stepper for Exponential {
         &mut self.candidate
     }
 
-    fn gain(&self, integral_rates: [f64; INTEGRALS]) -> [f64; INTEGRALS] {
-        self.integrals.gain(self.time() + self.pace.step, integral_rates)
+    fn integrals_ahead(&self, rates: [f64; INTEGRALS]) -> Integrals {
+        self.integrals.after(self.time() + self.pace.step, rates)
     }
 
     fn hold(&mut self, size: f64) {
@@ -230,7 +230,7 @@ impl Stepper for Exponential {
         self.fail(0.5);
     }
 
-    fn accept(&mut self, problem: &mut dyn Problem, integral_rates: [f64; INTEGRALS]) {
+    fn accept(&mut self, problem: &mut dyn Problem, integrals: Integrals) {
         let time = self.time() + self.pace.step;
         self.pace.accept();
         self.rests.rotate_right(1);
@@ -242,7 +242,7 @@ impl Stepper for Exponential {
         let contraction = self.contraction();
         self.plan(contraction);
         self.states.push(time, &self.candidate);
-        self.integrals.push(time, integral_rates);
+        self.integrals = integrals;
         self.part_age += 1;
         self.limited =
             if contraction > control::STIFF { self.limited + 1 } else { self.limited.saturating_sub(1) };
