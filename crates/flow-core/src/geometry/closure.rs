@@ -3,10 +3,13 @@
 
 use std::sync::Arc;
 
+use bytemuck::cast_slice;
+
 use super::brief::Brief;
 use super::embedding::Embedding;
 use super::grading::Grading;
 use super::grid::Complex64;
+use super::vectors::dot;
 
 /// The curve could not be closed.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -99,5 +102,5 @@ impl Closure {
 
 /// Mean of the product of two fields without mean or sawtooth.
 fn moment(a: &[Complex64], b: &[Complex64]) -> f64 {
-    2.0 * a.iter().zip(b).map(|(a, b)| a.re * b.re + a.im * b.im).sum::<f64>()
+    2.0 * dot(cast_slice(a), cast_slice(b))
 }

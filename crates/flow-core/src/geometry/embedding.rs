@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::grading::Grading;
 use super::grid::{Complex64, PeriodicGrid};
 use super::unit_vectors::unit_vectors;
-use super::vectors::{mean_of_product, multiply, sum};
+use super::vectors::{add_ramp, mean_of_product, multiply, sum};
 
 /// Where a curve lies: what curvature and length leave open.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -87,9 +87,7 @@ impl Embedding {
                 angle + turning * grading.mean_shift() - mean_of_product(grading.weight(), &self.theta)
             }
         };
-        for (i, theta) in self.theta.iter_mut().enumerate() {
-            *theta += angle + turning_per_node * i as f64;
-        }
+        add_ramp(&mut self.theta, angle, turning_per_node);
         let [cosine, sine] = &mut self.tangent;
         unit_vectors(&self.theta, cosine, sine);
         if let Some(grading) = &self.grading {

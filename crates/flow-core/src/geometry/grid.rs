@@ -1,10 +1,12 @@
 //! The periodic grid and its discrete Fourier transform.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 pub use rustfft::num_complex::Complex64;
 
 use super::real_transform::RealTransform;
+use super::vectors::turn_back;
 
 /// `n` equidistant nodes of the unit parameter circle, and the transforms between nodal values
 /// and Fourier coefficients (`THEORY.md`, eq. (D1)).
@@ -12,6 +14,8 @@ use super::real_transform::RealTransform;
 pub struct PeriodicGrid {
     nodes: usize,
     transform: RealTransform,
+    /// 1/2πj of each mode j, zero for the mean and the sawtooth.
+    inverse_wave_numbers: Arc<[f64]>,
 }
 
 impl PeriodicGrid {
@@ -19,7 +23,13 @@ impl PeriodicGrid {
     #[must_use]
     pub fn new(nodes: usize) -> Self {
         assert!(nodes >= 2, "a periodic grid needs two nodes");
-        Self { nodes, transform: RealTransform::new(nodes) }
+        let has_inverse = |mode: usize| mode > 0 && 2 * mode != nodes;
+        let inverse = |mode: usize| if has_inverse(mode) { 1.0 / (TAU * mode as f64) } else { 0.0 };
+        Self {
+            nodes,
+            transform: RealTransform::new(nodes),
+            inverse_wave_numbers: (0..=nodes / 2).map(inverse).collect(),
+        }
     }
 
     /// Number of nodes.
@@ -71,11 +81,8 @@ impl PeriodicGrid {
     /// Divides a spectrum by 2πij: the antiderivative with mean zero. Mean and sawtooth are lost; on nodal values
     /// the map is exactly skew.
     pub fn integrate(&self, spectrum: &mut [Complex64]) {
+        turn_back(spectrum, &self.inverse_wave_numbers);
         spectrum[0] = Complex64::default();
-        for (mode, value) in spectrum.iter_mut().enumerate().skip(1) {
-            let inverse = 1.0 / (TAU * mode as f64);
-            *value = Complex64::new(value.im * inverse, -value.re * inverse);
-        }
         if let Some(sawtooth) = self.sawtooth_mode() {
             spectrum[sawtooth] = Complex64::default();
         }

@@ -157,6 +157,15 @@ pub fn shift_into(out: &mut [f64], shift: f64, x: &[f64]) {
     }
 }
 
+/// xᵢ += start + slope × i.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn add_ramp(x: &mut [f64], start: f64, slope: f64) {
+    // Counted in 32 bits: all processors convert several of these at once.
+    for (i, x) in (0_u32..).zip(x) {
+        *x += start + slope * f64::from(i as i32);
+    }
+}
+
 /// x += shift.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 pub fn shift(x: &mut [f64], shift: f64) {
@@ -218,6 +227,14 @@ pub fn apply_real_symbol(out: &mut [Complex64], factor: f64, x: &[Complex64], sy
 pub fn add_real_symbol(out: &mut [Complex64], factor: f64, x: &[Complex64], symbol: &[f64]) {
     for ((out, x), symbol) in out.iter_mut().zip(x).zip(symbol) {
         *out += x * (factor * symbol);
+    }
+}
+
+/// x ×= −i × factors.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+pub fn turn_back(x: &mut [Complex64], factors: &[f64]) {
+    for (x, factor) in x.iter_mut().zip(factors) {
+        *x = Complex64::new(x.im * factor, -x.re * factor);
     }
 }
 

@@ -3,9 +3,11 @@
 //! Masses and length are linear invariants, which the integrator keeps up to the rounding and the solves of each step;
 //! the area is quadratic, and drifts with the error of the steps.
 
+use bytemuck::cast_slice;
 use serde::{Deserialize, Serialize};
 
 use crate::flow::{GradientFlow, Kept};
+use crate::geometry::vectors::dot;
 use crate::geometry::{Closure, ClosureError, Complex64, SpectralLayout, enclosed_area};
 
 /// Area, relative to that of a circle of the same length, up to which the difference is rounding.
@@ -215,5 +217,5 @@ fn area(closure: &mut Closure, turning: &[Complex64], length: f64, angle: f64) -
 
 /// Mean of the product of two fields without mean; the sawtooth counts twice, which is as good.
 fn moment(a: &[Complex64], b: &[Complex64]) -> f64 {
-    2.0 * a.iter().zip(b).skip(1).map(|(a, b)| a.re * b.re + a.im * b.im).sum::<f64>()
+    2.0 * dot(cast_slice(&a[1..]), cast_slice(&b[1..]))
 }

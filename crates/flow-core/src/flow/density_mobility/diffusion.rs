@@ -1,7 +1,7 @@
 //! Diffusion along the curve: 𝓖 = −`Δ_s`. See `THEORY.md`, eq. (F5).
 
 use super::DensityMobility;
-use crate::geometry::vectors::scale;
+use crate::geometry::vectors::{apply_real_symbol, scale};
 use crate::geometry::{Complex64, Grading, PeriodicGrid};
 use crate::operators::{Derivative, GradedLaplacian};
 
@@ -41,9 +41,7 @@ impl DensityMobility for Diffusion {
             scale(bytemuck::cast_slice_mut(out), factor);
             return;
         }
-        for ((out, potential), symbol) in out.iter_mut().zip(potential).zip(&self.minus_laplacian) {
-            *out = potential * (factor * symbol);
-        }
+        apply_real_symbol(out, factor, potential, &self.minus_laplacian);
     }
 
     fn symbol(&self, minus_laplacian: f64, length: f64) -> f64 {

@@ -6,13 +6,16 @@ mod parts;
 mod slopes;
 mod turning;
 
+use bytemuck::{cast_slice, cast_slice_mut};
 use implicit::drive;
 
 use super::curve_fields::CurveFields;
 use super::density_mobility::DensityMobility;
 use super::energy_sum::{EnergySum, IntrinsicGradient};
 use super::flow_map::FlowMap;
+use super::graded_energy::mean_product;
 use super::normal_mobility::{MobilityError, NormalMobility};
+use crate::geometry::vectors::add_scaled;
 use crate::geometry::{Complex64, Layout, SpectralLayout};
 
 pub use part_costs::{EvaluationCost, PartCosts};
@@ -238,11 +241,8 @@ impl GradientFlow {
             }
             let mu = &self.gradient.spectra[(density + 1) * modes..(density + 2) * modes];
             mobility.apply(length, mu, &mut self.spectrum);
-            let products = mu.iter().zip(&self.spectrum).enumerate();
-            let square: f64 = products
-                .map(|(mode, (a, b))| self.map.multiplicity(mode) * (a.re * b.re + a.im * b.im))
-                .sum();
-            sum += length * square;
+            let (grid, _) = self.map.grid_and_derivative();
+            sum += length * mean_product(grid, mu, &self.spectrum);
         }
         sum
     }
@@ -262,9 +262,7 @@ impl GradientFlow {
             }
             let range = (density + 1) * modes..(density + 2) * modes;
             mobility.apply(length, &self.gradient.spectra[range.clone()], &mut self.spectrum);
-            for (rate, product) in rates[range].iter_mut().zip(&self.spectrum) {
-                *rate -= product * length;
-            }
+            add_scaled(cast_slice_mut(&mut rates[range]), -length, cast_slice(&self.spectrum));
         }
         grid.make_real(rates);
         out[layout.length_index()] = length_rate;

@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use super::invariants::Invariants;
 use crate::flow::{GradientFlow, LinearSolver, Rate};
-use crate::geometry::vectors::{mean_of_product, multiply};
+use crate::geometry::vectors::{mean_of_product, multiply, sum};
 use crate::geometry::{Closure, Crossings, Embedding, Layout};
 use crate::integrator::{Finish, INTEGRALS, LinearPart, Problem};
 pub use memory::MembraneMemory;
@@ -135,18 +135,14 @@ impl Membrane {
     /// Rates of the integrals at the state evaluated last: dissipation, ⟨κW⟩, ⟨Vn + Wτ⟩.
     fn integral_rates(&mut self, rate: Rate) -> [f64; INTEGRALS] {
         self.flow.tangential_velocity(&mut self.tangential);
-        let nodes = self.flow.layout().nodes() as f64;
-        let (curvature, weight) = (self.flow.current().at_nodes(0), self.flow.current().weight());
         let [tx, ty] = self.closure.embedding().tangent();
-        let (mut angle, mut x, mut y) = (0.0, 0.0, 0.0);
-        for (i, (v, w)) in self.flow.normal_velocity().iter().zip(&self.tangential).enumerate() {
-            angle += weight.map_or(1.0, |weight| weight[i]) * curvature[i] * w;
-            // n = (τ_y, −τ_x); the tangents hold the weights.
-            x += v * ty[i] + w * tx[i];
-            y += w * ty[i] - v * tx[i];
-        }
+        let (at, v, w) = (self.flow.current(), self.flow.normal_velocity(), &self.tangential);
+        let angle = at.mean_of_product(at.at_nodes(0), w);
+        // n = (τ_y, −τ_x); the tangents hold the weights.
+        let x = mean_of_product(v, ty) + mean_of_product(w, tx);
+        let y = mean_of_product(w, ty) - mean_of_product(v, tx);
         let [moved_angle, moved_x, moved_y] = self.shift_of_means();
-        [rate.dissipation, angle / nodes + moved_angle, x / nodes + moved_x, y / nodes + moved_y]
+        [rate.dissipation, angle + moved_angle, x + moved_x, y + moved_y]
     }
 
     /// Rates of the mean angle and the mean position by the change of the weights of the nodes, ⟨(κV − ⟨κV⟩)·⟩: zero unless
@@ -237,7 +233,7 @@ impl Problem for Membrane {
         let layout = self.flow.spectral_layout();
         let length = y[layout.length_index()];
         let [start, angle, angle_rate] = self.placed;
-        let usable = length > 0.0 && y.iter().sum::<f64>().is_finite();
+        let usable = length > 0.0 && sum(y).is_finite();
         if !usable || !self.follow_metric(y) {
             return Finish::NotFinite;
         }
