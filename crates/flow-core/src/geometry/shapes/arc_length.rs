@@ -81,7 +81,7 @@ struct Level {
     turning: Vec<f64>,
     speed_at_edges: Vec<f64>,
     first_tangent_angle: f64,
-    /// Largest distance of a sample from the origin.
+    /// Largest distance of a sample from one of the axes.
     extent: f64,
     /// Smallest speed and its φ.
     slowest: (f64, f64),
@@ -97,7 +97,7 @@ impl Level {
         let jets = curve.jets(&phi);
         check_finite(&phi, &jets)?;
         let speeds: Vec<f64> = jets.iter().map(speed).collect();
-        let turnings: Vec<f64> = jets.iter().map(turning).collect();
+        let turnings: Vec<f64> = jets.iter().zip(&speeds).map(|(jet, v)| turning(jet, *v)).collect();
         let integrals =
             |values: &[f64]| values.chunks(1 + POINTS.len()).map(|cell| width * mean(&cell[1..])).collect();
         let slowest = speeds.iter().zip(&phi).min_by(|a, b| a.0.total_cmp(b.0));
@@ -106,7 +106,10 @@ impl Level {
             turning: integrals(&turnings),
             speed_at_edges: speeds.iter().step_by(1 + POINTS.len()).copied().collect(),
             first_tangent_angle: jets[0][1][1].atan2(jets[0][1][0]),
-            extent: jets.iter().map(|[[x, y], ..]| x.hypot(*y)).fold(0.0, f64::max),
+            extent: jets
+                .iter()
+                .flat_map(|[position, ..]| position)
+                .fold(0.0, |most: f64, x| most.max(x.abs())),
             slowest: slowest.map_or((0.0, 0.0), |(&speed, &phi)| (speed, phi)),
         })
     }

@@ -77,9 +77,8 @@ pub(super) fn speed(&[_, [x_phi, y_phi], _]: &Jet) -> f64 {
     x_phi.hypot(y_phi)
 }
 
-/// The rate of turning θ′ = (x′y″ − y′x″)/|γ′|², scaled so that no product overflows.
-pub(super) fn turning(jet: &Jet) -> f64 {
-    let (&[_, [x_phi, y_phi], [x_phi_phi, y_phi_phi]], v) = (jet, speed(jet));
+/// The rate of turning θ′ = (x′y″ − y′x″)/v² at the speed v = |γ′|, scaled so that no product overflows.
+pub(super) fn turning(&[_, [x_phi, y_phi], [x_phi_phi, y_phi_phi]]: &Jet, v: f64) -> f64 {
     (x_phi / v * y_phi_phi - y_phi / v * x_phi_phi) / v
 }
 

@@ -45,7 +45,7 @@ pub(super) fn resample(
         positions.sum::<f64>() / nodes as f64
     };
     Ok(Resampled {
-        curvature: jets.iter().map(|jet| turning(jet) / speed(jet)).collect(),
+        curvature: jets.iter().map(|jet| (jet, speed(jet))).map(|(jet, v)| turning(jet, v) / v).collect(),
         length: arc_length.total(),
         turning_number: arc_length.turning_number,
         angle: places.iter().zip(&jets).enumerate().map(angle).sum::<f64>() / nodes as f64,
