@@ -16,6 +16,8 @@ pub struct FlowMap {
     work: Workspace,
     gauge: Arc<dyn Gauge>,
     image: Vec<Complex64>,
+    /// Whether nothing has been computed since the last tangential velocity.
+    at_hand: bool,
 }
 
 impl FlowMap {
@@ -45,7 +47,7 @@ impl FlowMap {
         assert!(derivative.grading().is_none() || role != MetricRole::Uniform, "graded nodes in {gauge:?}");
         assert!(derivative.grading().is_some() || role != MetricRole::Field, "no metric for {gauge:?}");
         let image = vec![Complex64::default(); grid.modes()];
-        Self { work: Workspace::new(layout, grid, derivative), gauge, image }
+        Self { work: Workspace::new(layout, grid, derivative), gauge, image, at_hand: false }
     }
 
     /// The gauge.
@@ -87,6 +89,7 @@ impl FlowMap {
     /// The force where `force` holds the [`FlowMap::stretching`].
     pub fn complete_force(&mut self, at: &CurveFields, gradient: &[Complex64], force: &mut [f64]) {
         multiply(force, at.at_nodes(0));
+        self.at_hand = false;
         let Workspace { grid, derivative, graded, values, spectrum, .. } = &mut self.work;
         let p = &gradient[..grid.modes()];
         let scale = -1.0 / at.length().powi(2);
@@ -108,13 +111,31 @@ impl FlowMap {
     /// The part of the force by curvature ([`Gauge::stretching`]), for a gradient as [`FlowMap::force`] takes it: what the
     /// energy loses where a piece of the curve is stretched, minus its tension.
     pub fn stretching(&mut self, at: &CurveFields, gradient: &[Complex64], by_length: f64, out: &mut [f64]) {
+        self.at_hand = false;
         self.gauge.stretching(&mut self.work, at, gradient, by_length, out);
     }
 
     /// Rates of the fields per unit parameter as spectra, one per field, under the normal velocity `v`.
     /// Returns the rate of the length.
     pub fn rates(&mut self, at: &CurveFields, v: &[f64], rates: &mut [Complex64]) -> f64 {
+        self.at_hand = false;
         let length_rate = self.gauge.rates(&mut self.work, at, v, rates);
+        self.complete_rates(at, v, rates);
+        length_rate
+    }
+
+    /// As [`FlowMap::rates`], for the state and the `v` of the last [`FlowMap::tangential_velocity`] if that was the last call.
+    pub fn rates_at_hand(&mut self, at: &CurveFields, v: &[f64], rates: &mut [Complex64]) -> f64 {
+        if !std::mem::take(&mut self.at_hand) {
+            return self.rates(at, v, rates);
+        }
+        let length_rate = self.gauge.rates_at_hand(&mut self.work, at, v, rates);
+        self.complete_rates(at, v, rates);
+        length_rate
+    }
+
+    /// Adds −`Δ_s`V to the rate of the curvature.
+    fn complete_rates(&mut self, at: &CurveFields, v: &[f64], rates: &mut [Complex64]) {
         let Workspace { grid, derivative, graded, spectrum, .. } = &mut self.work;
         let turning = &mut rates[..grid.modes()];
         grid.transform(v, spectrum);
@@ -128,11 +149,11 @@ impl FlowMap {
         } else {
             add_real_symbol(turning, scale, spectrum, derivative.minus_laplacian());
         }
-        length_rate
     }
 
     /// Tangential velocity W at the nodes for the normal velocity `v`.
     pub fn tangential_velocity(&mut self, at: &CurveFields, v: &[f64], w: &mut [f64]) {
         self.gauge.tangential_velocity(&mut self.work, at, v, w);
+        self.at_hand = true;
     }
 }

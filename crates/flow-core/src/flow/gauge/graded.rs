@@ -37,6 +37,19 @@ impl Gauge for Graded {
         length * stretch
     }
 
+    fn rates_at_hand(
+        &self,
+        work: &mut Workspace,
+        at: &CurveFields,
+        v: &[f64],
+        rates: &mut [Complex64],
+    ) -> f64 {
+        match at.grading() {
+            None => ScaledArcLength.rates_at_hand(work, at, v, rates),
+            Some(_) => self.rates(work, at, v, rates),
+        }
+    }
+
     /// Z − ⟨wZ⟩ − π of (F3): what a stretched piece loses, minus its tension.
     fn stretching(
         &self,

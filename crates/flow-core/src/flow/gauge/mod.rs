@@ -48,6 +48,18 @@ pub trait Gauge: Debug + Send + Sync {
     /// `v`: one value per node. `rates`: a spectrum for each field of the state, overwritten.
     fn rates(&self, work: &mut Workspace, at: &CurveFields, v: &[f64], rates: &mut [Complex64]) -> f64;
 
+    /// As [`Gauge::rates`], right after [`Gauge::tangential_velocity`] at the same state for the same `v`: a gauge may go on from
+    /// what is in `work` then.
+    fn rates_at_hand(
+        &self,
+        work: &mut Workspace,
+        at: &CurveFields,
+        v: &[f64],
+        rates: &mut [Complex64],
+    ) -> f64 {
+        self.rates(work, at, v, rates)
+    }
+
     /// The transpose: what the energy loses where a piece of the curve is stretched, per length, for derivatives `gradient` by
     /// the fields (spectra) and `by_length` by the length. With V = v: |Γ|⟨w κ out v⟩ is minus the pairing of the gradient
     /// and [`Gauge::rates`].

@@ -19,15 +19,23 @@ impl Gauge for ScaledArcLength {
     }
 
     fn rates(&self, work: &mut Workspace, at: &CurveFields, v: &[f64], rates: &mut [Complex64]) -> f64 {
-        let length = at.length();
-        multiply_into(&mut work.product, at.at_nodes(0), v);
-        work.grid.transform(&work.product, &mut work.spectrum);
-        let length_rate = length * work.spectrum[0].re;
-        // D₋W = −|Γ|κV + mean, with D₋ = −conj(D₊).
-        multiply_by_conjugate(&mut work.spectrum, length, work.derivative.inverse_to_flux());
-        work.grid.synthesise(&work.spectrum, &mut work.tangential);
+        set_tangential(work, at, v);
         work.transport(at, rates);
-        length_rate
+        work.length_rate
+    }
+
+    fn rates_at_hand(
+        &self,
+        work: &mut Workspace,
+        at: &CurveFields,
+        v: &[f64],
+        rates: &mut [Complex64],
+    ) -> f64 {
+        if !flux_points_are_nodes(work) {
+            return self.rates(work, at, v, rates);
+        }
+        work.transport(at, rates);
+        work.length_rate
     }
 
     /// Z − ⟨Z⟩ − π of (F3): what a stretched piece loses, minus its tension.
@@ -47,10 +55,30 @@ impl Gauge for ScaledArcLength {
     }
 
     fn tangential_velocity(&self, work: &mut Workspace, at: &CurveFields, v: &[f64], w: &mut [f64]) {
+        if flux_points_are_nodes(work) {
+            set_tangential(work, at, v);
+            return w.copy_from_slice(&work.tangential);
+        }
         multiply_into(&mut work.product, at.at_nodes(0), v);
         scale(&mut work.product, -at.length());
         work.grid.transform(&work.product, &mut work.spectrum);
         work.grid.integrate(&mut work.spectrum);
         work.grid.synthesise(&work.spectrum, w);
     }
+}
+
+/// Whether D₊ is the derivative at the nodes, that of Fourier.
+fn flux_points_are_nodes(work: &Workspace) -> bool {
+    work.derivative.interpolation().is_none()
+}
+
+/// W at the flux points, and the rate of the length.
+fn set_tangential(work: &mut Workspace, at: &CurveFields, v: &[f64]) {
+    let length = at.length();
+    multiply_into(&mut work.product, at.at_nodes(0), v);
+    work.grid.transform(&work.product, &mut work.spectrum);
+    work.length_rate = length * work.spectrum[0].re;
+    // D₋W = −|Γ|κV + mean, with D₋ = −conj(D₊).
+    multiply_by_conjugate(&mut work.spectrum, length, work.derivative.inverse_to_flux());
+    work.grid.synthesise(&work.spectrum, &mut work.tangential);
 }

@@ -22,6 +22,8 @@ pub struct Workspace {
     pub product: Vec<f64>,
     /// Scratch: the values of W at the flux points.
     pub tangential: Vec<f64>,
+    /// Scratch: the rate of the length that goes with them.
+    pub length_rate: f64,
     /// Scratch: one spectrum.
     pub spectrum: Vec<Complex64>,
 }
@@ -39,6 +41,7 @@ impl Workspace {
             values: field.clone(),
             product: field.clone(),
             tangential: field,
+            length_rate: 0.0,
             spectrum: vec![Complex64::default(); grid.modes()],
         }
     }

@@ -253,7 +253,11 @@ impl GradientFlow {
         let length = at.length();
         let layout = SpectralLayout::new(self.layout);
         let rates = layout.spectra_mut(out);
-        let length_rate = self.map.rates(at, &self.velocity, rates);
+        let length_rate = if frozen {
+            self.map.rates(at, &self.velocity, rates)
+        } else {
+            self.map.rates_at_hand(at, &self.velocity, rates)
+        };
         let (grid, _) = self.map.grid_and_derivative();
         let modes = grid.modes();
         for (density, mobility) in self.density_mobilities.iter_mut().enumerate() {
