@@ -3,7 +3,7 @@
 use bytemuck::{cast_slice, cast_slice_mut};
 use flow_core::geometry::vectors::{
     add_real_symbol, add_scaled, apply_real_symbol, apply_symbol, dot, mean, mean_of_product, multiply_by,
-    multiply_by_conjugate, multiply_into, scale, scale_into, shift_into,
+    multiply_by_conjugate, multiply_into, scale_into, shift_into,
 };
 use flow_core::geometry::{Complex64, PeriodicGrid};
 use flow_core::operators::{Derivative, DerivativeFamily};
@@ -37,6 +37,7 @@ pub(super) struct BendingFlow {
     values: Vec<f64>,
     product: Vec<f64>,
     spectrum: Vec<Complex64>,
+    length_rate: f64,
 }
 
 impl BendingFlow {
@@ -60,6 +61,7 @@ impl BendingFlow {
             values: field.clone(),
             product: field,
             spectrum,
+            length_rate: 0.0,
             grid,
         }
     }
@@ -155,61 +157,55 @@ impl BendingFlow {
     }
 
     pub fn write_rates(&mut self, rate: &mut [f64]) {
-        Self::rates(
-            &self.current,
-            &mut self.grid,
-            &self.derivative,
-            &self.velocity,
-            [&mut self.product, &mut self.values],
-            &mut self.spectrum,
-            rate,
-        );
+        self.move_nodes(false);
+        self.write_rates_at_hand(rate);
+    }
+
+    /// Those at the state evaluated last, right after [`BendingFlow::tangential_velocity`].
+    pub fn write_rates_at_hand(&mut self, rate: &mut [f64]) {
+        self.transport(false, rate);
     }
 
     pub fn write_frozen_rates(&mut self, rate: &mut [f64]) {
-        Self::rates(
-            &self.frozen,
-            &mut self.grid,
-            &self.derivative,
-            &self.velocity,
-            [&mut self.product, &mut self.values],
-            &mut self.spectrum,
-            rate,
-        );
-    }
-
-    /// Rates under the normal velocity `v`, (F2).
-    fn rates(
-        at: &Curve,
-        grid: &mut PeriodicGrid,
-        derivative: &Derivative,
-        v: &[f64],
-        [product, tangential]: [&mut [f64]; 2],
-        spectrum: &mut [Complex64],
-        out: &mut [f64],
-    ) {
-        let turning = 2 * spectrum.len();
-        multiply_into(product, &at.curvature, v);
-        grid.transform(product, spectrum);
-        out[turning] = at.length * spectrum[0].re;
-        multiply_by_conjugate(spectrum, at.length, derivative.inverse_to_flux());
-        grid.synthesise(spectrum, tangential);
-        multiply_into(product, &at.curvature, tangential);
-        let rate: &mut [Complex64] = cast_slice_mut(&mut out[..turning]);
-        grid.transform(product, rate);
-        multiply_by_conjugate(rate, -1.0, derivative.to_flux());
-        grid.transform(v, spectrum);
-        add_real_symbol(rate, 1.0 / at.length, spectrum, derivative.minus_laplacian());
-        grid.make_real(rate);
+        self.move_nodes(true);
+        self.transport(true, rate);
     }
 
     /// Tangential velocity W at the state evaluated last.
     pub fn tangential_velocity(&mut self, w: &mut [f64]) {
-        multiply_into(&mut self.product, &self.current.curvature, &self.velocity);
-        scale(&mut self.product, -self.current.length);
+        self.move_nodes(false);
+        w.copy_from_slice(&self.values);
+    }
+
+    /// W and the rate of the length, (F1).
+    fn move_nodes(&mut self, frozen: bool) {
+        let at = if frozen { &self.frozen } else { &self.current };
+        multiply_into(&mut self.product, &at.curvature, &self.velocity);
         self.grid.transform(&self.product, &mut self.spectrum);
-        self.grid.integrate(&mut self.spectrum);
-        self.grid.synthesise(&self.spectrum, w);
+        self.length_rate = at.length * self.spectrum[0].re;
+        multiply_by_conjugate(&mut self.spectrum, at.length, self.derivative.inverse_to_flux());
+        self.grid.synthesise(&self.spectrum, &mut self.values);
+    }
+
+    /// Rates of the state, (F2).
+    fn transport(&mut self, frozen: bool, out: &mut [f64]) {
+        let at = if frozen { &self.frozen } else { &self.current };
+        let turning = 2 * self.spectrum.len();
+        out[turning] = self.length_rate;
+        multiply_into(&mut self.product, &at.curvature, &self.values);
+        let rate: &mut [Complex64] = cast_slice_mut(&mut out[..turning]);
+        self.grid.transform(&self.product, rate);
+        multiply_by_conjugate(rate, -1.0, self.derivative.to_flux());
+        self.grid.transform(&self.velocity, &mut self.spectrum);
+        add_real_symbol(rate, 1.0 / at.length, &self.spectrum, self.derivative.minus_laplacian());
+        self.grid.make_real(rate);
+    }
+
+    /// Derivative of the energy at the state evaluated last along the spectral `direction`.
+    pub fn energy_slope(&self, direction: &[f64]) -> f64 {
+        let turning = 2 * self.gradient.len();
+        let motion: &[Complex64] = cast_slice(&direction[..turning]);
+        mean_product(&self.grid, &self.gradient, motion) + self.by_length * direction[turning]
     }
 
     /// The eigenvalue of each mode at the linearisation with the coefficients frozen at their means.

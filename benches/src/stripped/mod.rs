@@ -8,6 +8,7 @@ mod bending;
 
 use std::ops::Range;
 
+use flow_core::geometry::vectors::{mean_of_product, sum};
 use flow_core::geometry::{Closure, Complex64, Layout, SpectralLayout};
 use flow_core::integrator::{Finish, INTEGRALS, LinearPart, Problem};
 
@@ -55,15 +56,12 @@ impl BendingOnly {
 
     fn integral_rates(&mut self, dissipation: f64) -> [f64; INTEGRALS] {
         self.flow.tangential_velocity(&mut self.tangential);
-        let nodes = self.tangential.len() as f64;
         let [tx, ty] = self.closure.embedding().tangent();
-        let (mut angle, mut x, mut y) = (0.0, 0.0, 0.0);
-        for (i, (v, w)) in self.flow.velocity().iter().zip(&self.tangential).enumerate() {
-            angle += self.flow.curvature()[i] * w;
-            x += v * ty[i] + w * tx[i];
-            y += w * ty[i] - v * tx[i];
-        }
-        [dissipation, angle / nodes, x / nodes, y / nodes]
+        let (v, w) = (self.flow.velocity(), &self.tangential);
+        let angle = mean_of_product(self.flow.curvature(), w);
+        let x = mean_of_product(v, ty) + mean_of_product(w, tx);
+        let y = mean_of_product(w, ty) - mean_of_product(v, tx);
+        [dissipation, angle, x, y]
     }
 }
 
@@ -121,7 +119,7 @@ impl Problem for BendingOnly {
     fn finish(&mut self, time: f64, y: &mut [f64]) -> Finish {
         let length = y[self.layout.length_index()];
         let [start, angle, angle_rate] = self.placed;
-        if !(length > 0.0 && y.iter().sum::<f64>().is_finite()) {
+        if !(length > 0.0 && sum(y).is_finite()) {
             return Finish::NotFinite;
         }
         let angle = angle + (time - start) * angle_rate;
@@ -138,8 +136,12 @@ impl Problem for BendingOnly {
         Finish::Good { energy, dissipation, integral_rates }
     }
 
+    fn energy_slope(&self, direction: &[f64]) -> Option<f64> {
+        Some(self.flow.energy_slope(direction))
+    }
+
     fn finished_rate(&mut self, _: &[f64], rate: &mut [f64]) {
-        self.flow.write_rates(rate);
+        self.flow.write_rates_at_hand(rate);
     }
 
     fn linear_part(&mut self, y: &[f64], part: &mut LinearPart) -> bool {
