@@ -2,10 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Growth of a step at most, but at a start.
+/// Growth of a step at most.
 pub const MOST_GROWTH: f64 = 2.5;
-/// Steps of a start, in which orders may rise with each.
-const FIRST_STEPS: u64 = 6;
 /// Growth after the first step.
 const FIRST_GROWTH: f64 = 1e4;
 /// Growth below this factor is not worth what a new step size costs.
@@ -36,11 +34,6 @@ impl Pace {
         Self { order: self.order.min(most), last_order: self.last_order.min(most), ..self }
     }
 
-    /// Whether the method is still at its start, where all that it knows of past steps is new.
-    pub fn is_starting(&self) -> bool {
-        self.accepted < FIRST_STEPS
-    }
-
     /// After an attempt that was thrown away.
     pub fn fail(&mut self, factor: f64) {
         self.failures += 1;
@@ -57,11 +50,11 @@ impl Pace {
         self.steps_at_order += 1;
     }
 
-    /// Goes on from an accepted step with the order of `best` and the growth that it allows, `most` at most unless it was the
-    /// first; `scaled` has the last word on the factor.
-    pub fn go_on(&mut self, best: (usize, f64), most: f64, scaled: impl FnOnce(f64) -> f64) {
+    /// Goes on from an accepted step with the order of `best` and the growth that it allows; `scaled` has the last word on the
+    /// factor.
+    pub fn go_on(&mut self, best: (usize, f64), scaled: impl FnOnce(f64) -> f64) {
         let (mut order, growth) = best;
-        let most = if self.accepted == 0 { FIRST_GROWTH } else { most };
+        let most = if self.accepted == 0 { FIRST_GROWTH } else { MOST_GROWTH };
         let mut growth = growth.min(most);
         if self.failures > 0 {
             growth = growth.min(1.0);

@@ -1,7 +1,6 @@
 //! Order and size of the next step.
 
 use super::{Bdf, HIGHEST_ORDER};
-use crate::integrator::pace::MOST_GROWTH;
 
 /// Safety factors on the error of order k − 1, k, k + 1: a change of order must pay.
 const BIAS: [f64; 3] = [4.0, 4.0, 6.0];
@@ -47,6 +46,6 @@ impl Bdf {
                 }
             }
         }
-        self.pace.go_on(best, MOST_GROWTH, |factor| factor);
+        self.pace.go_on(best, |factor| factor);
     }
 }

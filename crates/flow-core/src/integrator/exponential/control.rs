@@ -3,7 +3,6 @@
 use super::sums::Correction;
 use super::{Exponential, HIGHEST_ORDER, MOST_CHANGES, MOST_MOMENTS};
 use crate::integrator::Rejection;
-use crate::integrator::pace::MOST_GROWTH;
 
 /// Safety factors on the error of order k − 1, k, k + 1: a change of order must pay.
 const BIAS: [f64; 3] = [3.0, 2.0, 3.0];
@@ -14,9 +13,6 @@ pub(super) const STIFF: f64 = 0.4;
 pub(super) const LIMITED: u32 = 2;
 /// Steps do not grow beyond this contraction: at one, rounding would.
 const MOST_CONTRACTION: f64 = 0.7;
-
-/// Growth of a step at most in the first steps: the first of them is chosen small, for the error of order 1.
-const GROWTH_AT_START: f64 = 5.0;
 
 /// Steps of the scale on an octave.
 const SCALE: f64 = 16.0;
@@ -53,11 +49,7 @@ impl Exponential {
     /// after this step.
     pub(super) fn watched(&self) -> [usize; MOST_CHANGES - 1] {
         let order = self.pace.order;
-        let neighbours = if self.pace.is_starting() || self.pace.steps_at_order >= order {
-            [order - 1, order + 2]
-        } else {
-            [0, 0]
-        };
+        let neighbours = if self.pace.steps_at_order >= order { [order - 1, order + 2] } else { [0, 0] };
         [order, order + 1, neighbours[0], neighbours[1]]
     }
 
@@ -86,7 +78,7 @@ impl Exponential {
     pub(super) fn plan(&mut self, contraction: f64) {
         let order = self.pace.order;
         let mut best = (order, self.error(order).map_or(0.0, |error| self.growth(error, order, BIAS[1])));
-        if self.pace.is_starting() || self.pace.steps_at_order > order {
+        if self.pace.steps_at_order > order {
             for (other, bias) in [(order - 1, BIAS[0]), (order + 1, BIAS[2])] {
                 let Some(error) = self.error(other) else { continue };
                 let growth = self.growth(error, other, bias);
@@ -96,7 +88,6 @@ impl Exponential {
             }
         }
         best.1 = best.1.min(MOST_CONTRACTION / contraction);
-        let most = if self.pace.is_starting() { GROWTH_AT_START } else { MOST_GROWTH };
-        self.pace.go_on(best, most, on_scale);
+        self.pace.go_on(best, on_scale);
     }
 }
