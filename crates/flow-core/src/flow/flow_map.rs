@@ -6,6 +6,7 @@ use bytemuck::{cast_slice, cast_slice_mut};
 
 use super::curve_fields::CurveFields;
 use super::gauge::{CoMoving, Gauge, Graded, MetricRole, Workspace};
+use super::graded_energy::mean_product;
 use crate::geometry::vectors::{add_real_symbol, add_scaled, apply_real_symbol, multiply};
 use crate::geometry::{Complex64, Grading, Layout, PeriodicGrid};
 use crate::operators::{Derivative, GradedLaplacian};
@@ -76,6 +77,12 @@ impl FlowMap {
     #[must_use]
     pub fn multiplicity(&self, mode: usize) -> f64 {
         self.work.grid.multiplicity(mode)
+    }
+
+    /// Mean of the product of two nodal fields, by their spectra.
+    #[must_use]
+    pub fn mean_product(&self, a: &[Complex64], b: &[Complex64]) -> f64 {
+        mean_product(&self.work.grid, a, b)
     }
 
     /// Force f = −Aᵀ∇𝓕 of a gradient given by the spectra `gradient` (one per field, per unit length) and

@@ -100,7 +100,7 @@ impl Closure {
     }
 }
 
-/// Mean of the product of two fields without mean or sawtooth.
-fn moment(a: &[Complex64], b: &[Complex64]) -> f64 {
+/// Mean of the product of two fields without mean, by their spectra; the sawtooth counts twice.
+pub(crate) fn moment(a: &[Complex64], b: &[Complex64]) -> f64 {
     2.0 * dot(cast_slice(a), cast_slice(b))
 }

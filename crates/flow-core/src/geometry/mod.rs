@@ -25,6 +25,7 @@ pub mod vectors;
 
 pub(crate) use brief::Brief;
 pub use cells::CellList;
+pub(crate) use closure::moment;
 pub use closure::{Closure, ClosureError};
 pub use crossings::{Crossing, Crossings};
 pub use curve_geometry::{CurveGeometry, GeometryError};

@@ -3,12 +3,10 @@
 //! Masses and length are linear invariants, which the integrator keeps up to the rounding and the solves of each step;
 //! the area is quadratic, and drifts with the error of the steps.
 
-use bytemuck::cast_slice;
 use serde::{Deserialize, Serialize};
 
 use crate::flow::{GradientFlow, Kept};
-use crate::geometry::vectors::dot;
-use crate::geometry::{Closure, ClosureError, Complex64, SpectralLayout, enclosed_area};
+use crate::geometry::{Closure, ClosureError, Complex64, SpectralLayout, enclosed_area, moment};
 
 /// Area, relative to that of a circle of the same length, up to which the difference is rounding.
 const HELD: f64 = 1e-14;
@@ -186,8 +184,8 @@ impl Invariants {
         grid.transform(&self.values, &mut self.square);
         let whole = self.square[0].re;
         self.square[0] = Complex64::default();
-        let q = &mut self.square;
-        let [x, y] = closure.embedding().shape_spectra();
+        let q = &mut self.square[1..];
+        let [x, y] = closure.embedding().shape_spectra().map(|spectrum| &spectrum[1..]);
         let (xx, xy, yy) = (moment(x, x), moment(x, y), moment(y, y));
         let (qx, qy) = (moment(q, x), moment(q, y));
         let determinant = xx * yy - xy * xy;
@@ -213,9 +211,4 @@ fn area(closure: &mut Closure, turning: &[Complex64], length: f64, angle: f64) -
     embedding.set_tangent_spectrum(turning, length, angle);
     embedding.set_position(length, [0.0; 2]);
     enclosed_area(embedding.position(), embedding.tangent(), length)
-}
-
-/// Mean of the product of two fields without mean; the sawtooth counts twice, which is as good.
-fn moment(a: &[Complex64], b: &[Complex64]) -> f64 {
-    2.0 * dot(cast_slice(&a[1..]), cast_slice(&b[1..]))
 }

@@ -6,16 +6,14 @@ mod parts;
 mod slopes;
 mod turning;
 
-use bytemuck::{cast_slice, cast_slice_mut};
 use implicit::drive;
 
 use super::curve_fields::CurveFields;
 use super::density_mobility::DensityMobility;
 use super::energy_sum::{EnergySum, IntrinsicGradient};
 use super::flow_map::FlowMap;
-use super::graded_energy::mean_product;
+use super::graded_energy::add_spectrum;
 use super::normal_mobility::{MobilityError, NormalMobility};
-use crate::geometry::vectors::add_scaled;
 use crate::geometry::{Complex64, Layout, SpectralLayout};
 
 pub use part_costs::{EvaluationCost, PartCosts};
@@ -241,8 +239,7 @@ impl GradientFlow {
             }
             let mu = &self.gradient.spectra[(density + 1) * modes..(density + 2) * modes];
             mobility.apply(length, mu, &mut self.spectrum);
-            let (grid, _) = self.map.grid_and_derivative();
-            sum += length * mean_product(grid, mu, &self.spectrum);
+            sum += length * self.map.mean_product(mu, &self.spectrum);
         }
         sum
     }
@@ -266,7 +263,7 @@ impl GradientFlow {
             }
             let range = (density + 1) * modes..(density + 2) * modes;
             mobility.apply(length, &self.gradient.spectra[range.clone()], &mut self.spectrum);
-            add_scaled(cast_slice_mut(&mut rates[range]), -length, cast_slice(&self.spectrum));
+            add_spectrum(&mut rates[range], -length, &self.spectrum);
         }
         grid.make_real(rates);
         out[layout.length_index()] = length_rate;

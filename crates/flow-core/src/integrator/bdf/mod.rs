@@ -127,6 +127,11 @@ impl Bdf {
         (1..=self.pace.order).map(|i| 1.0 / i as f64).sum()
     }
 
+    /// γ = h/α of the stage y = a + γf(y).
+    fn gamma(&self) -> f64 {
+        self.pace.step / self.leading_coefficient()
+    }
+
     fn candidate_time(&self) -> f64 {
         self.history.times()[0] + self.pace.step
     }
@@ -176,7 +181,7 @@ impl Stepper for Bdf {
         self.norm.rescale(problem, self.history.state(0));
         let weights = self.predictor(self.pace.order, 0);
         let points = self.pace.order + 1;
-        let gamma = self.pace.step / self.leading_coefficient();
+        let gamma = self.gamma();
         self.history.combine(&weights.value, points, &mut self.predicted);
         let shifted: [f64; MOST_POINTS] =
             std::array::from_fn(|i| weights.value[i] - gamma * weights.derivative[i]);
@@ -204,7 +209,7 @@ impl Stepper for Bdf {
     }
 
     fn polish(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> bool {
-        let gamma = self.pace.step / self.leading_coefficient();
+        let gamma = self.gamma();
         let stage = Stage { gamma, constant: &self.constant, goal: NEWTON_SHARE * self.tolerance };
         self.newton.correct(problem, &self.norm, &stage, &mut self.candidate, counters).is_some()
     }
@@ -212,7 +217,7 @@ impl Stepper for Bdf {
     /// −⟨∇𝓕, ẏ⟩ with the derivative ẏ of the polynomial that is the step. An error e that the solve leaves in stiff modes, where
     /// ∇𝓕 is small, adds ⟨Hess·e, 𝓚 Hess·e⟩ to the dissipation of the state, and would die before the next step.
     fn dissipation(&mut self, problem: &mut dyn Problem, dissipation: f64) -> f64 {
-        let gamma = self.pace.step / self.leading_coefficient();
+        let gamma = self.gamma();
         for ((difference, y), constant) in self.difference.iter_mut().zip(&self.candidate).zip(&self.constant)
         {
             *difference = (y - constant) / gamma;

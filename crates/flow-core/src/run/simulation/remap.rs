@@ -18,23 +18,19 @@ impl Simulation {
         let clock = Instant::now();
         let age = self.counters().steps - self.remapped_at;
         let state = self.integration.stepper().state();
-        let mut hopeless = None;
-        let served = match adaptation.look(&mut self.membrane, (time, state), &self.mesh, age) {
-            Look::Serve => true,
+        let (served, failure) = match adaptation.look(&mut self.membrane, (time, state), &self.mesh, age) {
+            Look::Serve => (true, None),
             Look::Change(plan) => {
-                self.remap(&plan, time, energy).is_some() || plan.mesh.nodes < self.mesh.nodes
+                (self.remap(&plan, time, energy).is_some() || plan.mesh.nodes < self.mesh.nodes, None)
             }
-            Look::Unresolved => false,
-            Look::Hopeless(error) => {
-                hopeless = Some(error);
-                false
-            }
+            Look::Unresolved => (false, None),
+            Look::Hopeless(error) => (false, Some(error)),
         };
         self.record.counters.unresolved_steps += u64::from(!served);
         let seconds = clock.elapsed().as_secs_f64();
         self.record.counters.integration_seconds += seconds;
         self.clocks.remaps += seconds;
-        if let Some(error) = hopeless {
+        if let Some(error) = failure {
             self.fail(error);
         }
     }
