@@ -50,7 +50,7 @@ pub fn ill_posed() -> Vec<Case> {
     ]
 }
 
-/// Steps fall to 10⁻²⁴ at t = 3·10⁻¹² and grow again.
+/// Steps fall to 10⁻²⁵ at t = 3·10⁻¹², grow and fall again, until one underflows.
 const HELD_EIGHT: &str = "
     curve = { shape = 'figure-eight', size = 1.0, turning_number = 0 }
     density = [{ name = 'protein', initial = 1.0, mobility = 'exchange' }]
