@@ -144,6 +144,10 @@ impl Problem for AuxiliaryFields {
         self.problem.unweigh(r);
     }
 
+    fn settle(&self, gamma: f64, r: &mut [f64]) -> bool {
+        self.problem.settle(gamma, r)
+    }
+
     fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
         self.problem.jacobian_product(v, out);
     }

@@ -178,6 +178,9 @@ impl<S: Stepper> Adaptive<S> {
         let size = self.stepper.step_size();
         let time = self.stepper.time() + size;
         let mut finish = self.finish(problem, time);
+        if self.is_rough(problem, &finish, size) && self.stepper.settle(problem) {
+            finish = self.finish(problem, time);
+        }
         for _ in 0..MOST_POLISHES {
             if !self.is_rough(problem, &finish, size) || !self.stepper.polish(problem, &mut self.counters) {
                 break;

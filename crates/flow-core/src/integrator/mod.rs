@@ -56,6 +56,11 @@ pub trait Problem {
     fn weigh(&self, r: &mut [f64]);
     /// Undoes [`Problem::weigh`].
     fn unweigh(&self, r: &mut [f64]);
+    /// Overwrites the residual `r` of a stage y = a + γf(y) by a change of y that makes good the stiff part of what J, which is
+    /// that of a guess, has missed; false if there is none.
+    fn settle(&self, _gamma: f64, _r: &mut [f64]) -> bool {
+        false
+    }
     /// Tells how many Krylov iterations a solve took; true if the preconditioner changed its kind and
     /// must be prepared anew.
     fn krylov_feedback(&mut self, iterations: usize) -> bool;
@@ -142,6 +147,11 @@ pub trait Stepper {
     /// # Errors
     /// The cause of the rejection; the step size is then already reduced.
     fn attempt(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> Result<(), Rejection>;
+    /// Makes good what the implicit solve has missed in stiff modes of the candidate, which `problem` has finished last, as far as
+    /// that takes no linear system; false if it takes one.
+    fn settle(&mut self, _problem: &mut dyn Problem) -> bool {
+        false
+    }
     /// Solves the candidate more exactly; false if that cannot be done.
     fn polish(&mut self, _problem: &mut dyn Problem, _counters: &mut Counters) -> bool {
         false

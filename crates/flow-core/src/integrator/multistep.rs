@@ -133,6 +133,10 @@ impl Stepper for Multistep {
         self.stepper_mut().attempt(problem, counters)
     }
 
+    fn settle(&mut self, problem: &mut dyn Problem) -> bool {
+        self.stepper_mut().settle(problem)
+    }
+
     fn polish(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> bool {
         self.stepper_mut().polish(problem, counters)
     }

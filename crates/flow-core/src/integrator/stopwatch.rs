@@ -209,6 +209,10 @@ impl<P: Problem> Problem for Clocked<'_, P> {
         self.problem.unweigh(r);
     }
 
+    fn settle(&self, gamma: f64, r: &mut [f64]) -> bool {
+        self.problem.settle(gamma, r)
+    }
+
     fn krylov_feedback(&mut self, iterations: usize) -> bool {
         self.watch.turn_to(Activity::StepControl);
         self.problem.krylov_feedback(iterations)

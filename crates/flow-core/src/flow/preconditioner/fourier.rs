@@ -34,6 +34,13 @@ pub fn mobility_symbol(flow: &GradientFlow, field: usize, minus_laplacian: f64, 
     }
 }
 
+/// Symbol of −J from `field` to itself, with the second derivative of the energy density `mean`.
+pub fn diagonal_symbol(flow: &GradientFlow, field: usize, minus_laplacian: f64, mean: f64) -> f64 {
+    let length = flow.symbol_length();
+    let stiffness = flow.energy_terms().implicit_stiffness()[field] * minus_laplacian / (length * length);
+    mobility_symbol(flow, field, minus_laplacian, length) * (stiffness + mean)
+}
+
 impl FourierSymbol {
     /// Room for the blocks.
     #[must_use]

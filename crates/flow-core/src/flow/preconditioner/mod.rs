@@ -9,6 +9,7 @@ mod local_spacing;
 mod material;
 mod metric_coupling;
 mod residual_weights;
+mod stiff_curvature;
 
 use serde::{Deserialize, Serialize};
 
@@ -21,6 +22,7 @@ pub use fourier::mobility_symbol;
 use length_coupling::LengthCoupling;
 use metric_coupling::MetricCoupling;
 pub use residual_weights::ResidualWeights;
+pub use stiff_curvature::StiffCurvature;
 
 /// How the linear systems of the implicit steps are preconditioned.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -55,6 +57,7 @@ pub struct Preconditioner {
     metric: Option<MetricCoupling>,
     coupling: Option<LengthCoupling>,
     weights: ResidualWeights,
+    stiff_curvature: StiffCurvature,
 }
 
 impl Preconditioner {
@@ -79,6 +82,7 @@ impl Preconditioner {
         let coupled = length_curvature != 0.0 && !flow.normal_mobility().keeps().length;
         Self {
             weights: ResidualWeights::new(flow.spectral_layout()),
+            stiff_curvature: StiffCurvature::default(),
             inverse,
             carries: carries(flow) && !whole,
             metric: MetricCoupling::of(flow).filter(|_| !whole),
@@ -98,6 +102,7 @@ impl Preconditioner {
     /// [`FactorisationError`] if a pivot vanishes; a smaller γ helps.
     pub fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> Result<(), FactorisationError> {
         self.weights.set(flow, gamma);
+        self.stiff_curvature.set(flow);
         if let Some(metric) = &mut self.metric {
             metric.set(flow, gamma);
         }
@@ -134,6 +139,12 @@ impl Preconditioner {
     #[must_use]
     pub fn weights(&self) -> &ResidualWeights {
         &self.weights
+    }
+
+    /// How the curvature settles, at the last factorisation.
+    #[must_use]
+    pub fn stiff_curvature(&self) -> &StiffCurvature {
+        &self.stiff_curvature
     }
 
     fn apply_to_fields(&mut self, flow: &mut GradientFlow, r: &mut [f64]) {

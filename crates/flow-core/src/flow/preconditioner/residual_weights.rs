@@ -1,11 +1,12 @@
 //! Weights of residuals r = b − (I − γJ)x, between the two that are of interest.
 //!
 //! A residual r of a stiff mode with symbol 1 + γσ is an error r/(1 + γσ) of the state, but an error r/γ of the rate,
-//! which enters the dissipation. (1 + γσ)^{−3/8} keeps both small and does not ask for more. Where nodes crowd, σ, a mean, is far
-//! below the stiffness there, and (1 + γσ)^{−1/4} does that. See `THEORY.md`, eq. (I3).
+//! which enters the dissipation. (1 + γσ)^{−3/8} keeps both small and does not ask for more; in the curvature ^{−5/8} does, where
+//! what is left settles at no cost (see [`super::StiffCurvature`]). Where nodes crowd, σ, a mean, is far below the stiffness there,
+//! and (1 + γσ)^{−1/4} does that. See `THEORY.md`, eq. (I3).
 
 use super::super::gradient_flow::GradientFlow;
-use super::fourier::mobility_symbol;
+use super::fourier::diagonal_symbol;
 use crate::geometry::SpectralLayout;
 use crate::geometry::vectors::multiply;
 
@@ -30,7 +31,7 @@ impl ResidualWeights {
 
     /// Takes the symbols at the frozen state of `flow`, without the variable coefficients.
     pub fn set(&mut self, flow: &mut GradientFlow, gamma: f64) {
-        let (layout, length) = (flow.spectral_layout(), flow.symbol_length());
+        let layout = flow.spectral_layout();
         let uniform = flow.grading().is_none() && flow.layout().metric().is_none();
         for place in 0..flow.layout().state_fields() {
             // The metric moves as stiffly as the curvature.
@@ -39,19 +40,22 @@ impl ResidualWeights {
                 continue;
             }
             self.any = true;
-            let coefficient = flow.energy_terms().implicit_stiffness()[field] / (length * length);
             for (mode, stiffness) in self.stiffness.iter_mut().enumerate() {
                 let laplacian = flow.grid_and_derivative().1.minus_laplacian()[mode];
-                *stiffness =
-                    gamma * (mobility_symbol(flow, field, laplacian, length) * coefficient * laplacian);
+                *stiffness = gamma * diagonal_symbol(flow, field, laplacian, 0.0);
             }
             let entries = layout.field(place);
             let (inverses, _) = self.inverses[entries.clone()].as_chunks_mut::<2>();
             let (weights, _) = self.weights[entries].as_chunks_mut::<2>();
             // A loop of its own, so that the roots are taken in whole vector registers.
             for ((inverse, weight), stiffness) in inverses.iter_mut().zip(weights).zip(&self.stiffness) {
-                let quarter = (1.0 + stiffness).sqrt().sqrt();
-                let root = if uniform { quarter * quarter.sqrt() } else { quarter };
+                let half = (1.0 + stiffness).sqrt();
+                let quarter = half.sqrt();
+                let root = match (uniform, field) {
+                    (false, _) => quarter,
+                    (true, 0) => half * quarter.sqrt(),
+                    (true, _) => quarter * quarter.sqrt(),
+                };
                 *inverse = [root; 2];
                 *weight = [1.0 / root; 2];
             }

@@ -14,6 +14,7 @@ use super::multistep::first_step;
 use super::newton::{Factorisation, NewtonKrylov, NewtonOutcome, Stage};
 use super::pace::Pace;
 use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
+use crate::geometry::vectors::add_scaled;
 
 /// Highest order of the formulas that are stable enough.
 pub(super) const HIGHEST_ORDER: usize = 5;
@@ -206,6 +207,19 @@ impl Stepper for Bdf {
             return Err(Rejection::Error);
         }
         Ok(())
+    }
+
+    fn settle(&mut self, problem: &mut dyn Problem) -> bool {
+        let gamma = self.gamma();
+        problem.finished_rate(&self.candidate, &mut self.difference);
+        for ((r, y), constant) in self.difference.iter_mut().zip(&self.candidate).zip(&self.constant) {
+            *r = constant + gamma * *r - y;
+        }
+        let settles = problem.settle(gamma, &mut self.difference);
+        if settles {
+            add_scaled(&mut self.candidate, 1.0, &self.difference);
+        }
+        settles
     }
 
     fn polish(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> bool {

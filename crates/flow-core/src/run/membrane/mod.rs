@@ -225,6 +225,10 @@ impl Problem for Membrane {
         self.solver.unweigh(r);
     }
 
+    fn settle(&self, gamma: f64, r: &mut [f64]) -> bool {
+        self.solver.settle(&self.flow, gamma, r)
+    }
+
     fn krylov_feedback(&mut self, iterations: usize) -> bool {
         self.solver.learn(iterations)
     }

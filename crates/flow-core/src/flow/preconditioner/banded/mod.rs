@@ -14,7 +14,7 @@ use std::sync::Arc;
 pub use coefficients::Coefficients;
 
 use super::compact_laplacian::{DIFFERENCE, mass_symbol, symbol_of_mass};
-use super::fourier::mobility_symbol;
+use super::fourier::{diagonal_symbol, mobility_symbol};
 use super::local_spacing::LocalSpacing;
 use super::material::MaterialPart;
 use crate::flow::gradient_flow::GradientFlow;
@@ -135,8 +135,8 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         let band =
             if field == 0 { square * square } else { mobility_symbol(flow, field, difference, length) };
         let stiffness = flow.energy_terms().implicit_stiffness()[field];
-        let symbol = |mobility: f64, square: f64| 1.0 + gamma * mobility * (stiffness * square + mean);
-        [symbol(band, square), symbol(mobility_symbol(flow, field, exact, length), exact / (length * length))]
+        let band = 1.0 + gamma * band * (stiffness * square + mean);
+        [band, 1.0 + gamma * diagonal_symbol(flow, field, exact, mean)]
     }
 
     fn set_correction(&mut self, flow: &mut GradientFlow, gamma: f64) {
