@@ -8,7 +8,7 @@ fn ellipse(energies: &str) -> Record {
         "
         curve = {{ shape = 'ellipse', semi_axes = [1.5, 1.0] }}
         time = {{ end = 1.0, max_steps = 300 }}
-        accuracy = {{ tolerance = 1e-4, nodes = 128 }}
+        accuracy = {{ tolerance = 1e-4, nodes = 128, linear_solver = 'fourier' }}
         energy.length = {{ penalty = 5.0, target_ratio = 1.0 }}
         {energies}
         "

@@ -20,6 +20,7 @@ mod regrading;
 mod second_derivative;
 mod stability;
 mod states;
+mod stiff_curvature;
 mod terms;
 
 mod vectors;

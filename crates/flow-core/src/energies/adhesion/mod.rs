@@ -17,7 +17,7 @@ pub struct Adhesion {
     kernel: Kernel,
     cells: CellList,
     frozen: Frozen,
-    /// Scratch: squared distances from one node, G, G′ and G″ there, two components.
+    /// Scratch: squared distances of some pairs, G, G′ and G″ there, two components.
     squares: Vec<f64>,
     values: [Vec<f64>; 3],
     pull: [Vec<f64>; 2],
@@ -67,6 +67,7 @@ impl Adhesion {
     pub fn new(kernel: &Expression, cut_off: CutOff, nodes: usize) -> Result<Self, ExpressionError> {
         let field = || vec![0.0; nodes];
         let pair = || [field(), field()];
+        let of_pairs = || vec![0.0; (pairs::PAIRS_TOGETHER + nodes).min(nodes * nodes)];
         Ok(Self {
             kernel: Kernel::new(kernel, cut_off)?,
             cells: CellList::new(nodes),
@@ -80,9 +81,9 @@ impl Adhesion {
                 weight: Vec::with_capacity(nodes),
                 by_weight: Vec::with_capacity(nodes),
             },
-            squares: field(),
-            values: [field(), field(), field()],
-            pull: pair(),
+            squares: of_pairs(),
+            values: [of_pairs(), of_pairs(), of_pairs()],
+            pull: [of_pairs(), of_pairs()],
             sums: pair(),
             motion: pair(),
             weight: Vec::with_capacity(nodes),
@@ -108,7 +109,7 @@ impl EnergyTerm for Adhesion {
     }
 
     fn add_shape_energy(&mut self, shape: &ShapeFields, order: Order, out: &mut ShapeFields) -> f64 {
-        let (nodes, length) = (self.squares.len() as f64, shape.length);
+        let (nodes, length) = (self.shares.len() as f64, shape.length);
         self.cells.sort(shape.positions(), self.kernel.cut_off());
         if order >= Order::Hessian {
             self.frozen.first.clear();
@@ -153,7 +154,7 @@ impl EnergyTerm for Adhesion {
     }
 
     fn add_shape_hessian_product(&mut self, at: &ShapeFields, motion: &ShapeFields, out: &mut ShapeFields) {
-        let (nodes, length) = (self.squares.len() as f64, at.length);
+        let (nodes, length) = (self.shares.len() as f64, at.length);
         for (place, &node) in self.frozen.cells.order().iter().enumerate() {
             for axis in 0..2 {
                 self.motion[axis][place] = motion.position[axis][node];

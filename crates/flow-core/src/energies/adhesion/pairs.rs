@@ -1,32 +1,62 @@
 //! Sums over the pairs of nodes within the cut-off.
 
+use std::ops::Range;
+
 use multiversion::multiversion;
 
 use super::super::Order;
 use super::Adhesion;
 use crate::geometry::vectors;
 
+/// Pairs for which the kernel is evaluated together, and those of one more node.
+pub(super) const PAIRS_TOGETHER: usize = 1024;
+
 impl Adhesion {
     /// Σ_{i<j} G, with Σⱼ G′(γᵢ − γⱼ) in `sums`, and Σⱼ G in `shares` if the weights move.
+    ///
+    /// The kernel is evaluated for the pairs of many nodes together: those of one node are fewer than the lanes of a block.
     pub(super) fn sum_pairs(&mut self, order: Order, moving: bool) -> f64 {
         self.sums.iter_mut().chain([&mut self.shares]).for_each(|sum| sum.fill(0.0));
-        let [x, y] = self.cells.position();
         let mut sum = 0.0;
-        for place in 0..x.len() {
+        let mut start = 0;
+        while start < self.shares.len() {
+            let (end, count) = self.separate_pairs(start);
+            let values = self.values.each_mut().map(|values| &mut values[..count]);
+            self.kernel.evaluate(&self.squares[..count], order, values);
+            sum = self.share_pairs(start..end, order, moving, sum);
+            start = end;
+        }
+        sum
+    }
+
+    /// Separations of the nodes from `start` on and their later neighbours, as many as have room, with their squares; the node
+    /// after the last of them, and the number of pairs.
+    fn separate_pairs(&mut self, start: usize) -> (usize, usize) {
+        let [x, y] = self.cells.position();
+        let (mut place, mut count) = (start, 0);
+        while place < x.len() && count < PAIRS_TOGETHER {
+            for others in self.cells.later_neighbours(place) {
+                let pairs = count..count + others.len();
+                let [pull_x, pull_y] = self.pull.each_mut().map(|pull| &mut pull[pairs.clone()]);
+                let squares = &mut self.squares[pairs.clone()];
+                separate([x[place], y[place]], [&x[others.clone()], &y[others]], [pull_x, pull_y], squares);
+                count = pairs.end;
+            }
+            place += 1;
+        }
+        (place, count)
+    }
+
+    /// Adds what the pairs of the nodes `places` give to the sums, and their values to `sum`.
+    fn share_pairs(&mut self, places: Range<usize>, order: Order, moving: bool, mut sum: f64) -> f64 {
+        let mut end = 0;
+        for place in places {
             let (mut sum_x, mut sum_y) = (0.0, 0.0);
             for others in self.cells.later_neighbours(place) {
-                let count = others.len();
-                let [pull_x, pull_y] = self.pull.each_mut().map(|pull| &mut pull[..count]);
-                let squares = &mut self.squares[..count];
-                let from = [x[place], y[place]];
-                separate(
-                    from,
-                    [&x[others.clone()], &y[others.clone()]],
-                    [&mut *pull_x, &mut *pull_y],
-                    squares,
-                );
-                let [value, first, second] = self.values.each_mut().map(|values| &mut values[..count]);
-                self.kernel.evaluate(squares, order, [&mut *value, &mut *first, &mut *second]);
+                let pairs = end..end + others.len();
+                end = pairs.end;
+                let [pull_x, pull_y] = self.pull.each_ref().map(|pull| &pull[pairs.clone()]);
+                let [value, first, second] = self.values.each_mut().map(|values| &mut values[pairs.clone()]);
                 if !self.weight.is_empty() {
                     let weight = &self.weight[others.clone()];
                     weigh(value, self.weight[place], weight);
@@ -35,16 +65,9 @@ impl Adhesion {
                         weigh(second, self.weight[place], weight);
                     }
                 }
-                if order >= Order::Hessian {
-                    self.frozen.first.extend_from_slice(first);
-                    self.frozen.second.extend_from_slice(second);
-                }
                 if moving {
                     self.shares[place] += vectors::sum(value);
                     vectors::add_scaled(&mut self.shares[others.clone()], 1.0, value);
-                    if order >= Order::Hessian {
-                        self.frozen.value.extend_from_slice(value);
-                    }
                 }
                 sum += vectors::sum(value);
                 sum_x += share(first, pull_x, &mut self.sums[0][others.clone()]);
@@ -52,6 +75,14 @@ impl Adhesion {
             }
             self.sums[0][place] += sum_x;
             self.sums[1][place] += sum_y;
+        }
+        if order >= Order::Hessian {
+            let [value, first, second] = self.values.each_ref().map(|values| &values[..end]);
+            self.frozen.first.extend_from_slice(first);
+            self.frozen.second.extend_from_slice(second);
+            if moving {
+                self.frozen.value.extend_from_slice(value);
+            }
         }
         sum
     }

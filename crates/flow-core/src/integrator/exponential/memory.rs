@@ -10,10 +10,12 @@ use crate::integrator::linear_part::LinearPart;
 use crate::integrator::memory::Memory;
 use crate::integrator::newton::Factorisation;
 
-/// Local errors may be this multiple of a tolerance of 1e-5, and a little less of a tighter one, as in the BDF.
+/// Local errors may be this multiple of a tolerance of 1e-5, and less of a tighter one by this power, as in the BDF: there are
+/// more steps, whose errors add up, and flows that are unstable for a while magnify each of them.
 const LOCAL_SHARE: f64 = 2.7;
+const SHARE_POWER: f64 = 0.2;
 /// Count of steps that the stiffness of the rest has limited, at which an implicit method takes over.
-const ENOUGH: u32 = 8 * super::control::LIMITED;
+const ENOUGH: u32 = 16 * super::control::LIMITED;
 
 /// What the exponential method knows besides past states.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -57,7 +59,7 @@ impl Exponential {
             rates: History::of(size, &rates),
             integrals: memory.integrals,
             norm: ErrorNorm::new(problem),
-            tolerance: LOCAL_SHARE * tolerance * (tolerance / 1e-5).min(1.0).powf(0.05),
+            tolerance: LOCAL_SHARE * tolerance * (tolerance / 1e-5).min(1.0).powf(SHARE_POWER),
             next_part: own.part.clone(),
             part: own.part,
             part_age: own.part_age.min(OLDEST_PART),
