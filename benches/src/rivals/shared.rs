@@ -48,6 +48,10 @@ impl Problem for Shared {
         self.0.borrow().unweigh(r);
     }
 
+    fn settle(&self, gamma: f64, r: &mut [f64]) -> bool {
+        self.0.borrow().settle(gamma, r)
+    }
+
     fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
         self.0.borrow_mut().jacobian_product(v, out);
     }
@@ -66,6 +70,14 @@ impl Problem for Shared {
 
     fn finish(&mut self, time: f64, y: &mut [f64]) -> Finish {
         self.0.borrow_mut().finish(time, y)
+    }
+
+    fn energy_rounding(&self, y: &[f64]) -> f64 {
+        self.0.borrow().energy_rounding(y)
+    }
+
+    fn energy_slope(&self, direction: &[f64]) -> Option<f64> {
+        self.0.borrow().energy_slope(direction)
     }
 
     fn finished_rate(&mut self, y: &[f64], rate: &mut [f64]) {

@@ -156,6 +156,18 @@ impl Problem for AuxiliaryFields {
         self.problem.krylov_feedback(iterations)
     }
 
+    fn energy_rounding(&self, y: &[f64]) -> f64 {
+        self.problem.energy_rounding(y)
+    }
+
+    fn energy_slope(&self, direction: &[f64]) -> Option<f64> {
+        self.problem.energy_slope(direction)
+    }
+
+    fn finished_rate(&mut self, y: &[f64], rate: &mut [f64]) {
+        self.problem.finished_rate(y, rate);
+    }
+
     fn finish(&mut self, time: f64, y: &mut [f64]) -> Finish {
         self.problem.finish(time, y)
     }
