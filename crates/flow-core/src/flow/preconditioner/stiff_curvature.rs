@@ -1,8 +1,8 @@
 //! What a Newton correction leaves in the stiff modes of the curvature, made good mode by mode.
 //!
-//! Fronts that move by δρ leave a part of ∂²𝓕/∂κ∂ρ² δρ² in the force on the curvature. It is small, and 𝓚 makes a large rate of it,
-//! which the dissipation sees. The stiff modes of the curvature follow the densities at once, by their own symbol: where nodes are
-//! equidistant and the curvature has a cost of slopes, that symbol has no variable part. See `THEORY.md`, eq. (I3).
+//! Fronts that move by δρ leave ½ ∂³𝓕/∂κ∂ρ² δρ² in the force on the curvature. It is small, but 𝓚 makes a large rate of it, which
+//! the dissipation sees. The stiff modes of the curvature follow the densities at once, by their own symbol: where nodes are
+//! equidistant and the curvature has a cost of slopes, its principal part has no variable coefficient. See `THEORY.md`, eq. (I2).
 
 use super::super::gradient_flow::GradientFlow;
 use super::fourier::diagonal_symbol;
