@@ -43,11 +43,20 @@ pub struct Stage<'a> {
     pub goal: f64,
 }
 
+impl Stage<'_> {
+    /// Turns the rate f(y) in `rate` into the residual a + γf(y) − y.
+    pub(super) fn residual(&self, y: &[f64], rate: &mut [f64]) {
+        for ((r, y), constant) in rate.iter_mut().zip(y).zip(self.constant) {
+            *r = constant + self.gamma * *r - y;
+        }
+    }
+}
+
 /// The iteration with its memory: age of the factorisation.
 #[derive(Clone, Debug)]
 pub struct NewtonKrylov {
     gmres: Gmres,
-    rate: Vec<f64>,
+    /// The rate at an iterate, then its residual, then its correction.
     correction: Vec<f64>,
     factorisation: Factorisation,
 }
@@ -68,7 +77,6 @@ impl NewtonKrylov {
     pub fn new(size: usize) -> Self {
         Self {
             gmres: Gmres::new(size, MOST_KRYLOV),
-            rate: vec![0.0; size],
             correction: vec![0.0; size],
             factorisation: Factorisation::default(),
         }
@@ -96,7 +104,7 @@ impl NewtonKrylov {
         counters: &mut Counters,
     ) -> NewtonOutcome {
         loop {
-            problem.linearise(guess, &mut self.rate);
+            problem.linearise(guess, &mut self.correction);
             counters.right_hand_sides += 1;
             let serves = self.factorisation_serves(stage.gamma);
             if !serves && !self.factorise(problem, stage.gamma, counters) {
@@ -141,7 +149,7 @@ impl NewtonKrylov {
         let (mut contraction, mut previous) = (FIRST_CONTRACTION, f64::INFINITY);
         for iteration in 0..MOST_ITERATIONS {
             if iteration > 0 {
-                problem.rate(y, &mut self.rate);
+                problem.rate(y, &mut self.correction);
                 counters.right_hand_sides += 1;
             }
             let Some(size) = self.correct_by_rate(problem, norm, stage, true, y, counters) else {
@@ -172,7 +180,7 @@ impl NewtonKrylov {
         counters: &mut Counters,
     ) -> Option<f64> {
         // At the state itself: the linearisation of a guess far away converges slowly, or not at all, in stiff modes.
-        problem.linearise(y, &mut self.rate);
+        problem.linearise(y, &mut self.correction);
         counters.right_hand_sides += 1;
         self.correct_by_rate(problem, norm, stage, false, y, counters)
     }
@@ -189,11 +197,7 @@ impl NewtonKrylov {
         counters: &mut Counters,
     ) -> Option<f64> {
         counters.newton_iterations += 1;
-        for (((correction, rate), constant), y) in
-            self.correction.iter_mut().zip(&self.rate).zip(stage.constant).zip(&*y)
-        {
-            *correction = constant + stage.gamma * rate - y;
-        }
+        stage.residual(y, &mut self.correction);
         let target = Target { goal: KRYLOV_SHARE * stage.goal, reduction: KRYLOV_REDUCTION, weighted };
         let solved = self.gmres.solve(problem, norm, stage.gamma, target, &mut self.correction, counters);
         if weighted {

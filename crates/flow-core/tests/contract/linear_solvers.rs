@@ -10,7 +10,7 @@ use flow_core::operators::DerivativeFamily;
 use flow_core::run::Membrane;
 
 use crate::mobilities::{Density, Normal};
-use crate::states::{fixed_blob, membrane, spectral};
+use crate::states::{State, fixed_blob, membrane, spectral};
 use crate::terms::{Term, every_flow, flow, flow_under};
 use crate::vectors::{distance, largest, motion, noise};
 
@@ -150,6 +150,25 @@ fn iterations(solver: LinearSolver, family: DerivativeFamily, terms: [Term; 2], 
     iterations_under(Normal::Identity, Density::Diffusion, solver, family, terms, gamma)
 }
 
+/// The flow of `state` under `terms`, linearised and factorised there, and that state as the solvers hold it.
+pub fn factorised(
+    state: &State,
+    normal: Normal,
+    density: Density,
+    solver: LinearSolver,
+    family: DerivativeFamily,
+    terms: [Term; 2],
+    gamma: f64,
+) -> (Membrane, Vec<f64>) {
+    let all = terms.iter().flat_map(|term| term.build(state.layout)).collect();
+    let flow = flow_under(all, family, state.layout, normal, &[density]);
+    let mut membrane = Membrane::new(flow, solver, 1, 0.0);
+    let y = spectral(state.layout, &state.y);
+    membrane.linearise(&y, &mut y.clone());
+    assert!(membrane.factorise(gamma), "{solver:?}, {family:?}, {terms:?}");
+    (membrane, y)
+}
+
 fn iterations_under(
     normal: Normal,
     density: Density,
@@ -158,13 +177,7 @@ fn iterations_under(
     terms: [Term; 2],
     gamma: f64,
 ) -> usize {
-    let state = membrane(256);
-    let all = terms.iter().flat_map(|term| term.build(state.layout)).collect();
-    let flow = flow_under(all, family, state.layout, normal, &[density]);
-    let mut membrane = Membrane::new(flow, solver, 1, 0.0);
-    let y = spectral(state.layout, &state.y);
-    membrane.linearise(&y, &mut y.clone());
-    assert!(membrane.factorise(gamma), "{solver:?}, {family:?}, {terms:?}");
+    let (mut membrane, y) = factorised(&membrane(256), normal, density, solver, family, terms, gamma);
     let mut norm = ErrorNorm::new(&membrane);
     norm.rescale(&membrane, &y);
     let mut r = vec![0.0; y.len()];

@@ -5,34 +5,28 @@ use flow_core::integrator::Problem;
 use flow_core::operators::DerivativeFamily;
 use flow_core::run::Membrane;
 
+use crate::linear_solvers::factorised;
 use crate::mobilities::{Density, Normal};
-use crate::states::{membrane, spectral};
-use crate::terms::{Term, flow_under};
+use crate::states::membrane;
+use crate::terms::Term;
 use crate::vectors::{largest, noise};
 
 const GAMMA: f64 = 1e-3;
 
-/// The three-fold membrane under `terms`, factorised with a γ for which most of its modes are stiff.
-fn factorised(terms: [Term; 2], normal: Normal, family: DerivativeFamily) -> Membrane {
-    let state = membrane(128);
-    let all = terms.iter().flat_map(|term| term.build(state.layout)).collect();
-    let flow = flow_under(all, family, state.layout, normal, &[Density::Diffusion]);
-    let mut membrane = Membrane::new(flow, LinearSolver::Banded, 1, 0.0);
-    let y = spectral(state.layout, &state.y);
-    membrane.linearise(&y, &mut y.clone());
-    assert!(membrane.factorise(GAMMA));
-    membrane
+/// The three-fold membrane under `terms`, with a γ for which most of its modes are stiff.
+fn stiff(terms: [Term; 2], normal: Normal, family: DerivativeFamily) -> Membrane {
+    factorised(&membrane(128), normal, Density::Diffusion, LinearSolver::Banded, family, terms, GAMMA).0
 }
 
 #[test]
 fn a_residual_of_stiff_modes_is_taken_back_in_the_curvature_alone() {
     for family in DerivativeFamily::ALL {
         for normal in [Normal::Identity, Normal::SurfaceDiffusion] {
-            let mut membrane = factorised([Term::Agents, Term::Penalty], normal, family);
+            let mut membrane = stiff([Term::Agents, Term::Penalty], normal, family);
             let curvature = membrane.blocks()[0].clone();
             let mut residual = vec![0.0; membrane.size()];
-            let stiff = curvature.len() / 2..curvature.len() - 2;
-            residual[stiff.clone()].copy_from_slice(&noise(5, stiff.len()));
+            let modes = curvature.len() / 2..curvature.len() - 2;
+            residual[modes.clone()].copy_from_slice(&noise(5, modes.len()));
             let mut change = residual.clone();
             change[curvature.end..].fill(f64::NAN); // what else is in the residual does not matter
             assert!(membrane.settle(GAMMA, &mut change), "{normal:?}, {family:?}");
@@ -50,7 +44,7 @@ fn a_residual_of_stiff_modes_is_taken_back_in_the_curvature_alone() {
 /// Without a cost of slopes the symbol of the curvature varies along the curve.
 #[test]
 fn a_curvature_without_a_cost_of_slopes_does_not_settle() {
-    let membrane = factorised([Term::Bending, Term::Penalty], Normal::Identity, DerivativeFamily::ALL[0]);
+    let membrane = stiff([Term::Bending, Term::Penalty], Normal::Identity, DerivativeFamily::ALL[0]);
     let residual = noise(3, membrane.size());
     let mut change = residual.clone();
     assert!(!membrane.settle(GAMMA, &mut change));

@@ -58,6 +58,12 @@ impl GradientFlow {
         self.map.grid_and_derivative()
     }
 
+    /// Whether the nodes are at equal distances: neither graded nor material.
+    #[must_use]
+    pub fn is_equidistant(&self) -> bool {
+        self.grading().is_none() && self.layout().metric().is_none()
+    }
+
     /// The grading of the nodes; none if they are uniform.
     #[must_use]
     pub fn grading(&self) -> Option<&Arc<Grading>> {

@@ -32,7 +32,7 @@ impl ResidualWeights {
     /// Takes the symbols at the frozen state of `flow`, without the variable coefficients.
     pub fn set(&mut self, flow: &mut GradientFlow, gamma: f64) {
         let layout = flow.spectral_layout();
-        let uniform = flow.grading().is_none() && flow.layout().metric().is_none();
+        let equidistant = flow.is_equidistant();
         for place in 0..flow.layout().state_fields() {
             // The metric moves as stiffly as the curvature.
             let field = if Some(place) == flow.layout().metric() { 0 } else { place };
@@ -51,7 +51,7 @@ impl ResidualWeights {
             for ((inverse, weight), stiffness) in inverses.iter_mut().zip(weights).zip(&self.stiffness) {
                 let half = (1.0 + stiffness).sqrt();
                 let quarter = half.sqrt();
-                let root = match (uniform, field) {
+                let root = match (equidistant, field) {
                     (false, _) => quarter,
                     (true, 0) => half * quarter.sqrt(),
                     (true, _) => quarter * quarter.sqrt(),

@@ -19,8 +19,7 @@ impl StiffCurvature {
     /// Takes the symbol at the frozen state of `flow`.
     pub fn set(&mut self, flow: &mut GradientFlow) {
         self.symbol.clear();
-        let uniform = flow.grading().is_none() && flow.layout().metric().is_none();
-        if !uniform || flow.energy_terms().implicit_stiffness()[0] == 0.0 {
+        if !flow.is_equidistant() || flow.energy_terms().implicit_stiffness()[0] == 0.0 {
             return;
         }
         let second = mean(flow.energy_terms().jet().second(0, 0)).max(0.0);

@@ -31,6 +31,11 @@ fn local_tolerance(tolerance: f64) -> f64 {
     LOCAL_SHARE * tolerance * (tolerance / 1e-5).min(1.0).powf(1.0 / (HIGHEST_ORDER + 1) as f64)
 }
 
+/// The stage y = `constant` + γf(y) of a step with local errors below `tolerance`.
+fn stage(gamma: f64, constant: &[f64], tolerance: f64) -> Stage<'_> {
+    Stage { gamma, constant, goal: NEWTON_SHARE * tolerance }
+}
+
 /// The method with its state.
 #[derive(Clone, Debug)]
 pub struct Bdf {
@@ -187,7 +192,7 @@ impl Stepper for Bdf {
         let shifted: [f64; MOST_POINTS] =
             std::array::from_fn(|i| weights.value[i] - gamma * weights.derivative[i]);
         self.history.combine(&shifted, points, &mut self.constant);
-        let stage = Stage { gamma, constant: &self.constant, goal: NEWTON_SHARE * self.tolerance };
+        let stage = stage(gamma, &self.constant, self.tolerance);
         let outcome =
             self.newton.solve(problem, &self.norm, &stage, &self.predicted, &mut self.candidate, counters);
         if outcome == NewtonOutcome::Failed {
@@ -212,9 +217,7 @@ impl Stepper for Bdf {
     fn settle(&mut self, problem: &mut dyn Problem) -> bool {
         let gamma = self.gamma();
         problem.finished_rate(&self.candidate, &mut self.difference);
-        for ((r, y), constant) in self.difference.iter_mut().zip(&self.candidate).zip(&self.constant) {
-            *r = constant + gamma * *r - y;
-        }
+        stage(gamma, &self.constant, self.tolerance).residual(&self.candidate, &mut self.difference);
         let settles = problem.settle(gamma, &mut self.difference);
         if settles {
             add_scaled(&mut self.candidate, 1.0, &self.difference);
@@ -224,7 +227,7 @@ impl Stepper for Bdf {
 
     fn polish(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> bool {
         let gamma = self.gamma();
-        let stage = Stage { gamma, constant: &self.constant, goal: NEWTON_SHARE * self.tolerance };
+        let stage = stage(gamma, &self.constant, self.tolerance);
         self.newton.correct(problem, &self.norm, &stage, &mut self.candidate, counters).is_some()
     }
 

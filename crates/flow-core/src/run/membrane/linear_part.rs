@@ -12,7 +12,7 @@ const MOST_FIELDS: usize = LinearPart::MOST_FIELDS;
 
 /// Whether the derivatives of `flow` are diagonal in Fourier space.
 pub fn exists(flow: &GradientFlow) -> bool {
-    flow.grading().is_none() && flow.layout().metric().is_none() && flow.layout().fields() <= MOST_FIELDS
+    flow.is_equidistant() && flow.layout().fields() <= MOST_FIELDS
 }
 
 /// −D S for each mode, at the linearisation of `flow`, into `part`: D the symbols of the mobilities, S the means of the second
