@@ -38,6 +38,8 @@ pub trait Formula: Debug {
     }
 }
 
+/// Growth of the last steps above which the integrals take the logarithm of the time for their clock.
+const GROWING: f64 = 1.5;
 /// Algebraic systems are solved to this part of the tolerance.
 const ALGEBRAIC: f64 = 0.03;
 
@@ -52,6 +54,9 @@ pub struct OneStep {
     time: f64,
     start: f64,
     step: f64,
+    /// Size of the first step, and of the last ones, newest first.
+    first: f64,
+    sizes: [f64; 3],
     failed: bool,
     error_norm: f64,
     state: Vec<f64>,
@@ -85,6 +90,8 @@ impl OneStep {
             time: 0.0,
             start: 0.0,
             step,
+            first: 0.0,
+            sizes: [f64::INFINITY; 3],
             failed: false,
             error_norm: 0.0,
             state: y.to_vec(),
@@ -139,7 +146,7 @@ impl Stepper for OneStep {
         }
         self.error_norm = self.norm.norm(&self.error) / self.tolerance;
         if !self.error_norm.is_finite() {
-            self.refuse();
+            self.refuse(0.5);
             return Err(Rejection::NotFinite);
         }
         if self.error_norm > 1.0 {
@@ -155,7 +162,9 @@ impl Stepper for OneStep {
     }
 
     fn integrals_ahead(&self, rates: [f64; INTEGRALS]) -> Integrals {
-        self.integrals.after(self.time + self.step, rates)
+        let grows = self.step > GROWING * self.sizes[2];
+        let stretch = if grows { 1.0 / (self.time + self.first) } else { 0.0 };
+        self.integrals.after(self.time + self.step, rates, stretch)
     }
 
     fn hold(&mut self, size: f64) {
@@ -168,12 +177,17 @@ impl Stepper for OneStep {
         self.failed = false;
     }
 
-    fn refuse(&mut self) {
+    fn refuse(&mut self, factor: f64) {
         self.failed = true;
-        self.step *= 0.5;
+        self.step *= factor;
     }
 
-    fn accept(&mut self, _: &mut dyn Problem, integrals: Integrals) {
+    fn accept(&mut self, _: &mut dyn Problem, integrals: Integrals, _: f64) {
+        if self.time == 0.0 {
+            self.first = self.step;
+        }
+        self.sizes.rotate_right(1);
+        self.sizes[0] = self.step;
         self.start = self.time;
         self.time += self.step;
         self.before.copy_from_slice(&self.state);

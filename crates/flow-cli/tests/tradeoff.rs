@@ -52,12 +52,12 @@ fn refused(output: &Output) -> (i32, String) {
 #[test]
 fn the_table_goes_to_stdout_and_the_picture_beside_the_scene() {
     let folder = Folder::new("table");
-    let output = folder.tradeoff(&["circle", "--tolerances", "1e-5,1e-2,1e-3", "--error", "1e-4"]);
+    let output = folder.tradeoff(&["circle", "--tolerances", "1e-5,1e-2,1e-3", "--error", "2e-5"]);
     assert!(output.status.success(), "{output:?}");
     let (table, talk) = (stdout(&output), String::from_utf8_lossy(&output.stderr).into_owned());
     let first: Vec<&str> = table.lines().map(|line| line.split_whitespace().next().unwrap()).collect();
     assert_eq!(first, ["asked", "1e-2", "1e-3", "1e-5", "cheapest"]);
-    assert!(table.contains("cheapest for 1e-4: accuracy.tolerance = 1e-5 with 32 nodes"), "{table}");
+    assert!(table.contains("cheapest for 2e-5: accuracy.tolerance = 1e-5 with 32 nodes"), "{table}");
     assert!(talk.contains("run 3 of 3, at tolerance 1e-5") && talk.contains("errors in time only"), "{talk}");
     assert_eq!(folder.files(), ["circle_tradeoff.png"]);
     let (code, error) = refused(&folder.tradeoff(&["circle"]));

@@ -2,7 +2,7 @@
 
 use super::{
     Counters, Finish, INTEGRALS, IntegrationError, Problem, Rejection, Rejections, Rest, Stepper,
-    integrals::POSITIVE,
+    integrals::POSITIVE, pace::on_scale,
 };
 
 /// Settings of the loop.
@@ -29,6 +29,8 @@ pub struct StepReport {
     pub energy: f64,
     /// Dissipation at its end.
     pub dissipation: f64,
+    /// Dissipation there without what the implicit solve left in stiff modes, which dies before the next step.
+    pub settled_dissipation: f64,
     /// Attempts rejected before it.
     pub rejections: Rejections,
 }
@@ -50,9 +52,14 @@ const ROUGH: f64 = 2.0;
 /// Part of the energy tolerance below which such an error does not matter.
 const UNSEEN: f64 = 0.1;
 /// Multiple of the energy tolerance by which the balance of one step may be off; such steps are few.
-const IMBALANCE: f64 = 15.0;
-/// Part of that from which on the next step is no larger.
-const WORTH_NO_GROWTH: f64 = 0.3;
+const IMBALANCE: f64 = 25.0;
+/// Part of that at which the next step is to be, where it would grow beyond that, and the part that does not count.
+const IN_BALANCE: f64 = 0.3;
+const BALANCED: f64 = 0.1;
+/// Power of the step by which the balance of one step falls, about: that of the polynomials through the dissipation.
+const BALANCE_POWER: f64 = 6.0;
+/// Smallest factor of the next attempt at a step that was thrown away.
+const LEAST_FACTOR: f64 = 0.5;
 const MOST_POLISHES: usize = 2;
 /// Corrections that leave more than this part of the dissipation are not worth another one.
 const UNMENDED: f64 = 0.5;
@@ -60,6 +67,14 @@ const UNMENDED: f64 = 0.5;
 const LEAST_STEP_ULPS: f64 = 16.0;
 /// Differences of times below this have no reciprocals.
 const LEAST_STEP: f64 = LEAST_STEP_ULPS * f64::MIN_POSITIVE;
+
+/// Growth of a step out of balance by `imbalance` that brings the next one to what is worth no growth.
+fn growth_in_balance(imbalance: f64) -> f64 {
+    if imbalance < BALANCED {
+        return f64::INFINITY;
+    }
+    on_scale((IN_BALANCE / imbalance).powf(1.0 / BALANCE_POWER))
+}
 
 impl<S: Stepper> Adaptive<S> {
     /// A loop from the state of `stepper`, whose energy is `energy`.
@@ -141,7 +156,7 @@ impl<S: Stepper> Adaptive<S> {
                 outcome = Ok(self.hold(problem, size));
             }
             match outcome {
-                Ok((energy, dissipation)) => {
+                Ok((energy, [dissipation, settled_dissipation])) => {
                     self.counters.steps += 1;
                     return Ok(StepReport {
                         time: self.stepper.time(),
@@ -149,6 +164,7 @@ impl<S: Stepper> Adaptive<S> {
                         order: self.stepper.order(),
                         energy,
                         dissipation,
+                        settled_dissipation,
                         rejections,
                     });
                 }
@@ -173,7 +189,8 @@ impl<S: Stepper> Adaptive<S> {
         if step < rest && 2.0 * step > rest { (0.5 + 1e-12) * rest } else { rest }
     }
 
-    fn attempt(&mut self, problem: &mut dyn Problem) -> Result<(f64, f64), Rejection> {
+    /// The energy and both dissipations of [`StepReport`].
+    fn attempt(&mut self, problem: &mut dyn Problem) -> Result<(f64, [f64; 2]), Rejection> {
         self.stepper.attempt(problem, &mut self.counters)?;
         let size = self.stepper.step_size();
         let time = self.stepper.time() + size;
@@ -192,46 +209,46 @@ impl<S: Stepper> Adaptive<S> {
             }
         }
         match finish {
-            Finish::NotFinite => Err(self.refuse(Rejection::NotFinite)),
+            Finish::NotFinite => Err(self.refuse(Rejection::NotFinite, LEAST_FACTOR)),
             Finish::Good { energy, .. } if self.rises(problem, energy) => {
-                Err(self.refuse(Rejection::EnergyRise))
+                Err(self.refuse(Rejection::EnergyRise, LEAST_FACTOR))
             }
             Finish::Good { energy, dissipation, mut integral_rates } => {
                 integral_rates[POSITIVE] = self.stepper.dissipation(problem, dissipation);
                 let rounding = self.rounding(problem, energy);
                 let integrals = self.stepper.integrals_ahead(integral_rates);
-                let imbalance = self.imbalance(energy, rounding, integrals.values());
+                // Times, and so the size of the step, and the integral are known to a unit in the last place.
+                let dissipated = integral_rates[POSITIVE] * time.abs() + integrals.values()[POSITIVE];
+                let rounding_of_balance = rounding + f64::EPSILON * dissipated.abs();
+                let imbalance = self.imbalance(energy, rounding_of_balance, integrals.values());
                 if imbalance.is_nan() || !integral_rates.iter().all(|rate| rate.is_finite()) {
-                    return Err(self.refuse(Rejection::NotFinite));
+                    return Err(self.refuse(Rejection::NotFinite, LEAST_FACTOR));
                 }
                 if imbalance > 1.0 {
-                    return Err(self.refuse(Rejection::Error));
+                    return Err(self.refuse(Rejection::Error, growth_in_balance(imbalance).max(LEAST_FACTOR)));
                 }
                 self.rest.watch(time, energy, rounding);
                 self.energy = energy;
-                self.stepper.accept(problem, integrals);
+                self.stepper.accept(problem, integrals, growth_in_balance(imbalance));
                 problem.accepted(time, self.stepper.integrals());
-                if imbalance > WORTH_NO_GROWTH {
-                    self.stepper.limit_step_size(size);
-                }
-                Ok((energy, dissipation))
+                Ok((energy, [dissipation, integral_rates[POSITIVE].min(dissipation)]))
             }
         }
     }
 
     /// Throws the candidate away.
-    fn refuse(&mut self, cause: Rejection) -> Rejection {
-        self.stepper.refuse();
+    fn refuse(&mut self, cause: Rejection, factor: f64) -> Rejection {
+        self.stepper.refuse(factor);
         cause
     }
 
     /// A step of size `size` in which the state stays: the flow is at rest, and what moves it is rounding.
-    fn hold(&mut self, problem: &mut dyn Problem, size: f64) -> (f64, f64) {
+    fn hold(&mut self, problem: &mut dyn Problem, size: f64) -> (f64, [f64; 2]) {
         self.stepper.hold(size);
         let time = self.stepper.time();
         self.finish(problem, time); // the candidate is that state
         problem.accepted(time, self.stepper.integrals());
-        (self.energy, 0.0)
+        (self.energy, [0.0; 2])
     }
 
     /// By how much rounding may change the energy from the last one to `energy`, that of the candidate.

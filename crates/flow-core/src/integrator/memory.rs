@@ -31,6 +31,7 @@ impl Memory {
         let falling = self.points.windows(2).all(|pair| pair[0].0 > pair[1].0);
         let points = self.points.len();
         let orders = 1..MOST_POINTS;
+        let times: Vec<f64> = self.points.iter().map(|(time, _)| *time).collect();
         let enough = match &self.exponential {
             Some(own) => own.fits(points, size) && points >= self.pace.order,
             None => points > self.pace.order.max(self.pace.last_order) && self.pace.order < MOST_POINTS - 1,
@@ -45,6 +46,7 @@ impl Memory {
             && orders.contains(&self.pace.order)
             && orders.contains(&self.pace.last_order)
             && enough
+            && self.pace.fits(&times)
             && self.pace.step > 0.0
             && self.pace.step.is_finite()
     }

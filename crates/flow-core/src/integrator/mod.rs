@@ -3,6 +3,7 @@
 
 mod adaptive;
 mod bdf;
+mod clock;
 mod error;
 mod error_norm;
 mod exponential;
@@ -168,9 +169,9 @@ pub trait Stepper {
     /// Takes a step of size `size` in which the state and the integrals stay.
     fn hold(&mut self, size: f64);
     /// Throws the candidate away for a cause found outside and reduces the step size.
-    fn refuse(&mut self);
+    fn refuse(&mut self, factor: f64);
     /// Accepts the candidate, which `problem` has finished last, with the integrals at it.
-    fn accept(&mut self, problem: &mut dyn Problem, integrals: Integrals);
+    fn accept(&mut self, problem: &mut dyn Problem, integrals: Integrals, most_growth: f64);
     /// State at a time within the last accepted step.
     fn interpolate(&self, time: f64, y: &mut [f64]) -> [f64; INTEGRALS];
 }

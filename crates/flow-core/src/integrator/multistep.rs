@@ -157,12 +157,12 @@ impl Stepper for Multistep {
         self.stepper_mut().hold(size);
     }
 
-    fn refuse(&mut self) {
-        self.stepper_mut().refuse();
+    fn refuse(&mut self, factor: f64) {
+        self.stepper_mut().refuse(factor);
     }
 
-    fn accept(&mut self, problem: &mut dyn Problem, integrals: Integrals) {
-        self.stepper_mut().accept(problem, integrals);
+    fn accept(&mut self, problem: &mut dyn Problem, integrals: Integrals, most_growth: f64) {
+        self.stepper_mut().accept(problem, integrals, most_growth);
     }
 
     fn interpolate(&self, time: f64, y: &mut [f64]) -> [f64; INTEGRALS] {

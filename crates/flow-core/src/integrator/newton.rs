@@ -13,8 +13,11 @@ const MOST_KRYLOV: usize = 60;
 const KRYLOV_SHARE: f64 = 0.5;
 /// Each linear solve reduces its residual at least by this factor, so that Newton errors fade with the flow.
 const KRYLOV_REDUCTION: f64 = 0.1;
-/// γ may change by this factor before the preconditioner is factorised again.
+/// γ may change by this factor before the preconditioner is factorised again, and by that one only if one was seen to age badly.
 const GAMMA_DRIFT: f64 = 1.35;
+const GAMMA_DRIFT_OF_BRITTLE: f64 = 1.05;
+/// Iterations of a solve beyond twice those of the first one with the same factorisation which say that it ages badly.
+const BRITTLE: usize = 6;
 /// Size of the second correction over the first, before it is known: the linearisation is that of the guess, so
 /// Newton's method converges quadratically.
 const FIRST_CONTRACTION: f64 = 0.02;
@@ -69,6 +72,8 @@ pub struct Factorisation {
     age: usize,
     /// Krylov iterations of the first solve with it, and of the last.
     iterations: [usize; 2],
+    /// Whether one was seen to age badly.
+    brittle: bool,
 }
 
 impl NewtonKrylov {
@@ -123,7 +128,8 @@ impl NewtonKrylov {
     }
 
     fn factorisation_serves(&self, gamma: f64) -> bool {
-        let near = |old: f64| gamma < GAMMA_DRIFT * old && old < GAMMA_DRIFT * gamma;
+        let drift = if self.factorisation.brittle { GAMMA_DRIFT_OF_BRITTLE } else { GAMMA_DRIFT };
+        let near = |old: f64| gamma < drift * old && old < drift * gamma;
         let [first, last] = self.factorisation.iterations;
         let good = self.factorisation.age < OLDEST_FACTORISATION && last <= first + MORE_ITERATIONS;
         self.factorisation.gamma.is_some_and(near) && good
@@ -205,6 +211,8 @@ impl NewtonKrylov {
             if self.factorisation.age == 0 {
                 self.factorisation.iterations[0] = solved.iterations;
             }
+            let [first, last] = self.factorisation.iterations;
+            self.factorisation.brittle |= last > 2 * first + BRITTLE;
         }
         if problem.krylov_feedback(solved.iterations) {
             self.factorisation.gamma = None;

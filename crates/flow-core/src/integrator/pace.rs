@@ -2,14 +2,27 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::clock::{Clock, fastest};
+
 /// Growth of a step at most.
 pub const MOST_GROWTH: f64 = 2.5;
 /// Growth after the first step.
 const FIRST_GROWTH: f64 = 1e4;
 /// Growth below this factor is not worth what a new step size costs.
-const LEAST_GROWTH: f64 = 1.2;
+const LEAST_GROWTH: f64 = 1.1;
 /// Steps shrink by no more than this factor after one that went well.
 const LEAST: f64 = 0.5;
+/// Growth by the clock at most, where that is not time itself: the size of steps that grow with the time is to change smoothly.
+const MOST_BY_CLOCK: f64 = 1.5;
+
+/// Steps of the scale on an octave.
+const SCALE: f64 = 16.0;
+
+/// The next factor below on a geometric scale. Estimates of errors are differences, whose rounding would go on to all
+/// steps; so it goes on only where it tips the scale.
+pub fn on_scale(factor: f64) -> f64 {
+    ((SCALE * factor.log2() + 1e-6).floor() / SCALE).exp2()
+}
 
 /// Order and size of the next step, and how the steps before went.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -17,21 +30,66 @@ pub struct Pace {
     pub order: usize,
     pub last_order: usize,
     pub step: f64,
+    /// Rates of the clocks of the next step, from its start, and of the last one, from its end.
+    pub stretch: f64,
+    pub last_stretch: f64,
     pub steps_at_order: usize,
     /// Accepted steps, and attempts thrown away since the last of them.
     pub accepted: u64,
     pub failures: u32,
 }
 
+/// What the errors of a step say of the next one: its order, its growth and the rate of its clock, both by that clock from the
+/// start of the step on.
+#[derive(Clone, Copy, Debug)]
+pub struct Next {
+    pub order: usize,
+    pub growth: f64,
+    pub stretch: f64,
+}
+
+impl Next {
+    /// The one of the two whose growth is larger, this one if they are the same.
+    pub fn or(self, other: Self) -> Self {
+        if other.growth > self.growth { other } else { self }
+    }
+}
+
 impl Pace {
     /// At a start, with a first step of size `step`.
     pub fn starting(step: f64) -> Self {
-        Self { order: 1, last_order: 1, step, steps_at_order: 0, accepted: 0, failures: 0 }
+        Self {
+            order: 1,
+            last_order: 1,
+            step,
+            stretch: 0.0,
+            last_stretch: 0.0,
+            steps_at_order: 0,
+            accepted: 0,
+            failures: 0,
+        }
     }
 
     /// The same with orders of at most `most`.
     pub fn of_order_at_most(self, most: usize) -> Self {
         Self { order: self.order.min(most), last_order: self.last_order.min(most), ..self }
+    }
+
+    /// The clock of the step from the first of `times`.
+    pub fn clock(&self, times: &[f64]) -> Clock {
+        Clock::new(times[0], self.stretch)
+    }
+
+    /// How long ago the oldest of `times` is that the step, or a change of its order, looks at.
+    pub fn reach(&self, times: &[f64]) -> f64 {
+        times[0] - times[(self.order + 1).min(times.len() - 1)]
+    }
+
+    /// Whether the clock runs at these times.
+    pub fn fits(&self, times: &[f64]) -> bool {
+        (0.0..f64::INFINITY).contains(&self.stretch)
+            && self.last_stretch.is_finite()
+            && self.stretch * self.reach(times) < 1.0
     }
 
     /// After an attempt that was thrown away.
@@ -50,24 +108,33 @@ impl Pace {
         self.steps_at_order += 1;
     }
 
-    /// Goes on from an accepted step with the order of `best` and the growth that it allows; `scaled` has the last word on the
-    /// factor.
-    pub fn go_on(&mut self, best: (usize, f64), scaled: impl FnOnce(f64) -> f64) {
-        let (mut order, growth) = best;
-        let most = if self.accepted == 0 { FIRST_GROWTH } else { MOST_GROWTH };
-        let mut growth = growth.min(most);
-        if self.failures > 0 {
-            growth = growth.min(1.0);
-        }
+    /// Goes on from an accepted step, from the first of `times` on with past states at the others, to `next`; its growth becomes at
+    /// most `most_growth`, and `scaled` has the last word on the factor.
+    pub fn go_on(&mut self, next: Next, most_growth: f64, times: &[f64], scaled: impl FnOnce(f64) -> f64) {
+        let run = next.stretch * self.step;
+        let by_time = |growth: f64| {
+            if run == 0.0 {
+                return growth;
+            }
+            (1.0 + run) * (growth.min(MOST_BY_CLOCK) * run.ln_1p()).exp_m1() / run
+        };
+        let most = match (self.failures, self.accepted) {
+            (0, 0) => FIRST_GROWTH,
+            (0, _) => MOST_GROWTH,
+            _ => 1.0,
+        };
+        let (mut order, mut growth) = (next.order, by_time(next.growth).min(most));
         if growth > 1.0 && growth < LEAST_GROWTH {
-            growth = 1.0;
-            order = self.order;
+            (order, growth) = (self.order, 1.0);
         }
         if order != self.order {
             self.steps_at_order = 0;
         }
         self.order = order;
-        self.step *= scaled(growth.max(LEAST));
+        let reach = times[0] + self.step - times[(order + 1).min(times.len() - 1)];
+        self.last_stretch = self.stretch / (1.0 + self.stretch * self.step);
+        self.stretch = (next.stretch / (1.0 + run)).min(fastest(reach));
+        self.step *= scaled(growth.min(by_time(most_growth)).max(LEAST));
         self.accepted += 1;
         self.failures = 0;
     }

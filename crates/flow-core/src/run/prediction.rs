@@ -33,8 +33,8 @@ const TRIAL_STEPS: u64 = 12;
 /// Vectors of the size of the state that the solver holds: history, Krylov basis, scratch.
 const SOLVER_VECTORS: f64 = 80.0;
 /// Steps per decade of time at tolerance 1e-5, and the power of the tolerance by which they grow.
-const STEPS_PER_DECADE: f64 = 20.0;
-const POWER: f64 = 0.16;
+const STEPS_PER_DECADE: f64 = 16.0;
+const POWER: f64 = 0.13;
 
 /// Predicts a run of `scene`.
 ///

@@ -21,6 +21,7 @@ mod second_derivative;
 mod stability;
 mod states;
 mod stiff_curvature;
+mod stretched_time;
 mod terms;
 
 mod vectors;

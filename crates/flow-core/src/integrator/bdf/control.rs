@@ -1,23 +1,31 @@
 //! Order and size of the next step.
 
-use super::{Bdf, HIGHEST_ORDER};
+use super::{Bdf, Clock, HIGHEST_ORDER};
+use crate::integrator::clock;
+use crate::integrator::pace::Next;
 
 /// Safety factors on the error of order k − 1, k, k + 1: a change of order must pay.
 const BIAS: [f64; 3] = [4.0, 4.0, 6.0];
+
 impl Bdf {
-    /// Estimate of the local error of order `order` at constant step: ‖h^{k+1} y^{(k+1)}‖/(k + 1).
-    fn error_of_order(&mut self, order: usize) -> f64 {
-        let time = self.candidate_time();
-        let weights = self.predictor(order, 0);
+    /// How far the polynomial of degree `order` in the time of `clock` misses the candidate.
+    fn missed(&mut self, order: usize, clock: Clock) -> f64 {
+        let weights = self.predictor(order, clock);
         self.history.combine(&weights.value, order + 1, &mut self.difference);
         for (difference, y) in self.difference.iter_mut().zip(&self.candidate) {
             *difference = y - *difference;
         }
+        self.norm.norm(&self.difference)
+    }
+
+    /// Estimate of the local error of order `order` at constant step of `clock`: ‖h^{k+1} y^{(k+1)}‖/(k + 1).
+    fn error_of_order(&mut self, order: usize, clock: Clock) -> f64 {
         let mut factor = 1.0 / (order + 1) as f64;
+        let (end, times) = (clock.at(self.candidate_time()), clock.all(self.history.times()));
         for back in 0..=order {
-            factor *= self.pace.step / (time - self.history.times()[back]) * (back + 1) as f64;
+            factor *= end / (end - times[back]) * (back + 1) as f64;
         }
-        factor * self.norm.norm(&self.difference)
+        factor * self.missed(order, clock)
     }
 
     /// Ratio of the next step size that keeps an error at the tolerance.
@@ -25,27 +33,32 @@ impl Bdf {
         1.0 / ((bias * error / self.tolerance).powf(1.0 / (order + 1) as f64) + 1e-6)
     }
 
+    /// The rate of the clock that would have served this step best.
+    fn best_stretch(&mut self) -> f64 {
+        let (order, current, start) = (self.pace.order, self.pace.stretch, self.history.times()[0]);
+        let others = clock::others(current, self.pace.reach(self.history.times()));
+        let missed = self.missed(order, self.clock());
+        let others = others.map(|other| (other, self.missed(order, Clock::new(start, other))));
+        clock::best(current, missed, others)
+    }
+
     /// Order and step size after an accepted candidate (which is not yet in the history).
-    pub(super) fn plan(&mut self) {
-        let order = self.pace.order;
-        let error = self.error_of_order(order);
-        let mut best = (order, self.growth(error, order, BIAS[1]));
+    pub(super) fn plan(&mut self, most_growth: f64) {
+        let (order, stretch) = (self.pace.order, self.best_stretch());
+        let clock = Clock::new(self.history.times()[0], stretch);
+        let next = |bdf: &mut Self, order, bias| {
+            let error = bdf.error_of_order(order, clock);
+            Next { order, growth: bdf.growth(error, order, bias), stretch }
+        };
+        let mut best = next(self, order, BIAS[1]);
         if self.pace.steps_at_order > order {
             if order > 1 {
-                let lower = self.error_of_order(order - 1);
-                let growth = self.growth(lower, order - 1, BIAS[0]);
-                if growth > best.1 {
-                    best = (order - 1, growth);
-                }
+                best = best.or(next(self, order - 1, BIAS[0]));
             }
             if order < HIGHEST_ORDER && self.history.len() > order + 1 {
-                let higher = self.error_of_order(order + 1);
-                let growth = self.growth(higher, order + 1, BIAS[2]);
-                if growth > best.1 {
-                    best = (order + 1, growth);
-                }
+                best = best.or(next(self, order + 1, BIAS[2]));
             }
         }
-        self.pace.go_on(best, |factor| factor);
+        self.pace.go_on(best, most_growth, self.history.times(), |factor| factor);
     }
 }

@@ -1,11 +1,13 @@
 //! Backward differentiation formulas of order 1 to 5 with variable steps and fixed leading coefficient.
 //!
 //! The predictor is the polynomial through the last k + 1 states; the corrector agrees with it at
-//! t − h … t − kh, which gives y = ỹ + (h/α)(f(y) − ỹ′) with α = 1 + ½ + … + 1/k. See `THEORY.md`, eq. (I5);
+//! t − h … t − kh, which gives y = ỹ + (h/α)(f(y) − ỹ′) with α = 1 + ½ + … + 1/k; all in stretched time, of which the clock is chosen
+//! anew for each step. See `THEORY.md`, eqs. (I4), (I5);
 //! Brenan, Campbell & Petzold, Numerical Solution of Initial-Value Problems in DAEs (1996), chapter 5.
 
 mod control;
 
+use super::clock::Clock;
 use super::error_norm::ErrorNorm;
 use super::history::{History, MOST_POINTS, Weights, lagrange};
 use super::integrals::Integrals;
@@ -19,16 +21,20 @@ use crate::geometry::vectors::add_scaled;
 /// Highest order of the formulas that are stable enough.
 pub(super) const HIGHEST_ORDER: usize = 5;
 /// Local errors may be this multiple of a tolerance of 1e-5: a dissipative flow forgets them. A tighter tolerance takes
-/// more steps, as its root of the order of the error, whose errors add up: the multiple shrinks with them. The measured
+/// more steps, as its root of the order of the error, whose errors add up: the multiple shrinks with them. It shrinks with looser ones
+/// too, by this power: large errors excite stiff modes, whose cure costs more than shorter steps. The measured
 /// errors of the shipped scenes are in `benches/README.md`.
 const LOCAL_SHARE: f64 = 3.0;
+const LOOSE_POWER: f64 = 0.25;
 /// Newton's method is solved to this part of the local tolerance: the square of its error, weighted by the
 /// stiffness, enters the dissipation and with it the energy balance.
 const NEWTON_SHARE: f64 = 0.2;
 
 /// Local error for which the global error is about the tolerance.
 fn local_tolerance(tolerance: f64) -> f64 {
-    LOCAL_SHARE * tolerance * (tolerance / 1e-5).min(1.0).powf(1.0 / (HIGHEST_ORDER + 1) as f64)
+    let relative = tolerance / 1e-5;
+    let power = if relative < 1.0 { 1.0 / (HIGHEST_ORDER + 1) as f64 } else { -LOOSE_POWER };
+    LOCAL_SHARE * tolerance * relative.powf(power)
 }
 
 /// The stage y = `constant` + γf(y) of a step with local errors below `tolerance`.
@@ -133,23 +139,34 @@ impl Bdf {
         (1..=self.pace.order).map(|i| 1.0 / i as f64).sum()
     }
 
+    /// The clock of the next step.
+    fn clock(&self) -> Clock {
+        self.pace.clock(self.history.times())
+    }
+
     /// γ = h/α of the stage y = a + γf(y).
     fn gamma(&self) -> f64 {
-        self.pace.step / self.leading_coefficient()
+        let (clock, end) = (self.clock(), self.candidate_time());
+        clock.at(end) * clock.slope(end) / self.leading_coefficient()
     }
 
     fn candidate_time(&self) -> f64 {
         self.history.times()[0] + self.pace.step
     }
 
-    fn predictor(&self, order: usize, skip: usize) -> Weights {
-        lagrange(self.candidate_time(), &self.history.times()[skip..=skip + order])
+    /// Of the polynomial in τ through the last states, at the end of the step; the derivative by the time.
+    fn predictor(&self, order: usize, clock: Clock) -> Weights {
+        let end = self.candidate_time();
+        let mut weights = lagrange(clock.at(end), &clock.all(self.history.times())[..=order]);
+        weights.derivative.iter_mut().for_each(|weight| *weight /= clock.slope(end));
+        weights
     }
 
     /// Factor between ‖y − ỹ‖ and the local error of the fixed-leading-coefficient formula.
     fn error_factor(&self) -> f64 {
-        let time = self.candidate_time();
-        let alpha = |back: usize| self.pace.step / (time - self.history.times()[back]);
+        let clock = self.clock();
+        let (end, times) = (clock.at(self.candidate_time()), clock.all(self.history.times()));
+        let alpha = |back: usize| end / (end - times[back]);
         let last = alpha(self.pace.order);
         let alpha_0: f64 = -(0..self.pace.order).map(alpha).sum::<f64>();
         let alpha_s = -self.leading_coefficient();
@@ -185,7 +202,7 @@ impl Stepper for Bdf {
 
     fn attempt(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> Result<(), Rejection> {
         self.norm.rescale(problem, self.history.state(0));
-        let weights = self.predictor(self.pace.order, 0);
+        let weights = self.predictor(self.pace.order, self.clock());
         let points = self.pace.order + 1;
         let gamma = self.gamma();
         self.history.combine(&weights.value, points, &mut self.predicted);
@@ -244,7 +261,7 @@ impl Stepper for Bdf {
     }
 
     fn integrals_ahead(&self, rates: [f64; INTEGRALS]) -> Integrals {
-        self.integrals.after(self.candidate_time(), rates)
+        self.integrals.after(self.candidate_time(), rates, self.pace.stretch)
     }
 
     fn hold(&mut self, size: f64) {
@@ -260,21 +277,22 @@ impl Stepper for Bdf {
         &mut self.candidate
     }
 
-    fn refuse(&mut self) {
-        self.pace.fail(0.5);
+    fn refuse(&mut self, factor: f64) {
+        self.pace.fail(factor);
     }
 
-    fn accept(&mut self, _: &mut dyn Problem, integrals: Integrals) {
+    fn accept(&mut self, _: &mut dyn Problem, integrals: Integrals, most_growth: f64) {
         let time = self.candidate_time();
         self.pace.accept();
-        self.plan();
+        self.plan(most_growth);
         self.history.push(time, &self.candidate);
         self.integrals = integrals;
     }
 
     fn interpolate(&self, time: f64, y: &mut [f64]) -> [f64; INTEGRALS] {
         let points = (self.pace.last_order + 1).min(self.history.len());
-        let weights = lagrange(time, &self.history.times()[..points]);
+        let clock = Clock::new(self.history.times()[0], self.pace.last_stretch);
+        let weights = lagrange(clock.at(time), &clock.all(self.history.times())[..points]);
         self.history.combine(&weights.value, points, y);
         self.integrals.at(time)
     }

@@ -1,26 +1,30 @@
 //! Order and size of the next step, and the watch over what limits it.
 
+use super::substitution::StepClock;
 use super::sums::Correction;
-use super::{Exponential, HIGHEST_ORDER, MOST_CHANGES, MOST_MOMENTS};
+use super::{Exponential, HIGHEST_ORDER, MOST_CHANGES, MOST_MOMENTS, weights_at_end};
 use crate::integrator::Rejection;
+use crate::integrator::clock;
+use crate::integrator::pace::{Next, on_scale};
 
 /// Safety factors on the error of order k − 1, k, k + 1: a change of order must pay.
 const BIAS: [f64; 3] = [3.0, 2.0, 3.0];
 /// Contraction of the corrector above which what it leaves out, the stiffness of N, limits the steps.
-pub(super) const STIFF: f64 = 0.4;
+const STIFF: f64 = 0.4;
+/// … or its multiple of that from which on errors grow from step to step, where that is less.
+const UNSTABLE: f64 = 2.0;
+/// What a step counts at most whose error would have let it grow farther than the stiffness.
+const MOST_LIMITED: u32 = 4;
 /// What a step that is limited so counts, over what one that is not takes away again: at rest, where both corrections are
 /// rounding, they take turns.
 pub(super) const LIMITED: u32 = 2;
 /// Steps do not grow beyond this contraction: at one, rounding would.
 const MOST_CONTRACTION: f64 = 0.7;
 
-/// Steps of the scale on an octave.
-const SCALE: f64 = 16.0;
-
-/// The next factor below on a geometric scale. Estimates of errors are differences, whose rounding would go on to all
-/// steps; so it goes on only where it tips the scale.
-fn on_scale(factor: f64) -> f64 {
-    ((SCALE * factor.log2() + 1e-6).floor() / SCALE).exp2()
+/// Contraction above which steps of order `order` are limited by the stiffness of N: a prediction through k values multiplies errors
+/// of N that alternate from step to step by 2ᵏ − 1, and two corrections shrink them by the square of the contraction.
+fn stiff(order: usize) -> f64 {
+    STIFF.min(UNSTABLE / (2.0_f64.powi(order as i32) - 1.0).sqrt())
 }
 
 impl Exponential {
@@ -43,6 +47,26 @@ impl Exponential {
         let again = self.norm.norm(&self.changes[0]);
         self.scratch.iter_mut().zip(&self.candidate).zip(&self.predicted).for_each(|((d, y), p)| *d = y - p);
         again / self.norm.norm(&self.scratch).max(f64::MIN_POSITIVE)
+    }
+
+    /// Finds the clock by which a prediction, through two values of N at least, would have missed least; `correction` is of the kind
+    /// that makes it good.
+    pub(super) fn compare_clocks(&mut self, correction: Correction) {
+        let points = correction.points.max(2);
+        self.best_stretch = self.pace.stretch;
+        if points <= self.states.len() {
+            let others = clock::others(self.pace.stretch, self.pace.reach(self.states.times()));
+            let stretches = [self.pace.stretch, others[0], others[1]];
+            let mut corrections = [Correction { points, ..correction }; 3];
+            for (correction, stretch) in corrections.iter_mut().zip(stretches) {
+                let nodes = self.nodes(points, StepClock::new(stretch * self.pace.step));
+                correction.weights = weights_at_end(&nodes[..points]);
+            }
+            self.change(&corrections);
+            let missed = |change: usize| self.norm.norm(&self.changes[change]);
+            let others = others.into_iter().zip([missed(1), missed(2)]);
+            self.best_stretch = clock::best(self.pace.stretch, missed(0), others);
+        }
     }
 
     /// Numbers of values of N whose differences tell the error at this order, and at its neighbours where the order may change
@@ -75,19 +99,25 @@ impl Exponential {
     }
 
     /// Order and size of the step after an accepted candidate.
-    pub(super) fn plan(&mut self, contraction: f64) {
+    pub(super) fn plan(&mut self, contraction: f64, most_growth: f64) {
         let order = self.pace.order;
-        let mut best = (order, self.error(order).map_or(0.0, |error| self.growth(error, order, BIAS[1])));
+        let stretch = self.best_stretch;
+        let next = |order, error: Option<f64>, bias| {
+            let growth = error.map_or(0.0, |error| self.growth(error, order, bias));
+            Next { order, growth, stretch }
+        };
+        let mut best = next(order, self.error(order), BIAS[1]);
         if self.pace.steps_at_order > order {
-            for (other, bias) in [(order - 1, BIAS[0]), (order + 1, BIAS[2])] {
-                let Some(error) = self.error(other) else { continue };
-                let growth = self.growth(error, other, bias);
-                if growth > best.1 {
-                    best = (other, growth);
-                }
-            }
+            best = best.or(next(order - 1, self.error(order - 1), BIAS[0]));
+            best = best.or(next(order + 1, self.error(order + 1), BIAS[2]));
         }
-        best.1 = best.1.min(MOST_CONTRACTION / contraction);
-        self.pace.go_on(best, on_scale);
+        let (free, stable) = (best.growth.min(most_growth), MOST_CONTRACTION / contraction);
+        best.growth = free.min(stable);
+        self.limited = if contraction > stiff(order) {
+            self.limited + ((free / stable).powi(2) as u32).clamp(1, MOST_LIMITED)
+        } else {
+            self.limited.saturating_sub(1)
+        };
+        self.pace.go_on(best, most_growth, self.states.times(), on_scale);
     }
 }

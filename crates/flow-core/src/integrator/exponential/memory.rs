@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Exponential, HIGHEST_ORDER, Moments, OLDEST_PART};
+use super::{Exponential, HIGHEST_ORDER, Moments, OLDEST_PART, StepClock, Substitution};
 use crate::integrator::Problem;
 use crate::integrator::error_norm::ErrorNorm;
 use crate::integrator::history::{History, MOST_POINTS};
@@ -10,10 +10,10 @@ use crate::integrator::linear_part::LinearPart;
 use crate::integrator::memory::Memory;
 use crate::integrator::newton::Factorisation;
 
-/// Local errors may be this multiple of a tolerance of 1e-5, and less of a tighter one by this power, as in the BDF: there are
-/// more steps, whose errors add up, and flows that are unstable for a while magnify each of them.
-const LOCAL_SHARE: f64 = 2.7;
-const SHARE_POWER: f64 = 0.2;
+/// Local errors may be as large as the tolerance, flows that are unstable for a while magnifying each of them; larger by a power of a
+/// looser tolerance, which takes a few steps only.
+const LOOSE: f64 = 1e-3;
+const SHARE_POWER: f64 = 0.3;
 /// Count of steps that the stiffness of the rest has limited, at which an implicit method takes over.
 const ENOUGH: u32 = 16 * super::control::LIMITED;
 
@@ -59,11 +59,13 @@ impl Exponential {
             rates: History::of(size, &rates),
             integrals: memory.integrals,
             norm: ErrorNorm::new(problem),
-            tolerance: LOCAL_SHARE * tolerance * (tolerance / 1e-5).min(1.0).powf(SHARE_POWER),
+            tolerance: tolerance * (tolerance / LOOSE).max(1.0).powf(SHARE_POWER),
             next_part: own.part.clone(),
             part: own.part,
             part_age: own.part_age.min(OLDEST_PART),
             moments: Moments::new(size),
+            substitution: Substitution::new(StepClock::new(0.0), 1),
+            best_stretch: 0.0,
             rests: vec![zero(); MOST_POINTS],
             bases: [zero(), zero()],
             pace: memory.pace.of_order_at_most(HIGHEST_ORDER),

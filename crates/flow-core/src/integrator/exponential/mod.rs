@@ -1,15 +1,16 @@
 //! Exponential Adams method of variable order and step size, predict–evaluate–correct–evaluate.
 //!
 //! With J ≈ Λ + rest, Λ diagonal in its eigenbasis, dy/dt = Λy + N(y). The solution of this with a polynomial in place of N is
-//! exact in Λ:  y(t + h) = e^{hΛ}y + h Σᵢ mᵢ(hΛ) cᵢ,  P(θ) = Σ cᵢθⁱ. The predictor's polynomial goes through the last k values
-//! of N, the corrector's through these and the value at the prediction; what they differ by without the oldest value is the
-//! error. There are no linear systems: it serves while N is not stiff. See `THEORY.md`, eqs. (I10) to (I12); Hochbruck & Ostermann,
+//! exact in Λ:  y(t + h) = e^{hΛ}y + h Σᵢ mᵢ(hΛ) cᵢ,  P(θ) = Σ cᵢθⁱ. The predictor's polynomial, in stretched time, goes through the
+//! last k values of N, the corrector's through these and the value at the prediction; what they differ by without the oldest value is
+//! the error. There are no linear systems: it serves while N is not stiff. See `THEORY.md`, eqs. (I10) to (I12); Hochbruck & Ostermann,
 //! BIT 51 (2011) 889; order and step size as Shampine & Gordon, Computer Solution of Ordinary Differential Equations (1975).
 
 mod control;
 mod memory;
 mod moments;
 mod polynomials;
+mod substitution;
 mod sums;
 
 use super::error_norm::ErrorNorm;
@@ -22,12 +23,15 @@ use crate::geometry::vectors::add_scaled_product;
 pub use memory::ExponentialMemory;
 use moments::{Moments, moments_at};
 use polynomials::{Coefficients, lagrange_basis, of_last_point, of_new_value};
+use substitution::{StepClock, Substitution};
 use sums::Correction;
 
 /// Most values of N that a prediction goes through.
 const HIGHEST_ORDER: usize = 6;
-/// Moments for polynomials through the value at the prediction, and one value more.
-const MOST_MOMENTS: usize = HIGHEST_ORDER + 2;
+/// Moments for polynomials through the value at the prediction and one value more, and for those by other clocks.
+const MOST_MOMENTS: usize = HIGHEST_ORDER + FOR_CLOCKS;
+/// Moments beyond the order that make polynomials in stretched time exact to a part of 1e-6 and less of their highest terms.
+const FOR_CLOCKS: usize = 4;
 /// Changes that are computed at once: the correction, and the differences that tell the error.
 const MOST_CHANGES: usize = 5;
 /// Accepted steps after which Λ is taken anew.
@@ -47,11 +51,14 @@ pub struct Exponential {
     next_part: LinearPart,
     part_age: usize,
     moments: Moments,
+    substitution: Substitution,
     /// N = f − Λy at the states in the eigenbasis, newest first; the newest states there.
     rests: Vec<Vec<f64>>,
     bases: [Vec<f64>; 2],
     pace: Pace,
     limited: u32,
+    /// Rate of the clock that would have served the last attempt best.
+    best_stretch: f64,
     /// What the last n values of N change instead of n − 1, where it is known.
     differences: [Option<f64>; MOST_POINTS + 1],
     predicted: Vec<f64>,
@@ -64,10 +71,10 @@ pub struct Exponential {
 }
 
 impl Exponential {
-    /// θ of the last `points` states.
-    fn nodes(&self, points: usize) -> [f64; MOST_MOMENTS] {
+    /// u of the last `points` states by `clock`.
+    fn nodes(&self, points: usize, clock: StepClock) -> [f64; MOST_MOMENTS] {
         let times = self.states.times();
-        nodes(&times[..points], times[0], self.pace.step)
+        clock.nodes(&times[..points], times[0], self.pace.step)
     }
 
     /// Takes Λ anew from the last state if it has aged.
@@ -104,9 +111,12 @@ impl Exponential {
 
     fn predict(&mut self) {
         let points = self.pace.order;
-        let basis = lagrange_basis(&self.nodes(points)[..points]);
+        let basis = lagrange_basis(&self.nodes(points, self.substitution.clock())[..points])
+            .map(|polynomial| self.substitution.in_theta(polynomial));
+        let terms = self.substitution.terms(points);
         let Self { predicted, moments, bases, rests, pace, .. } = self;
-        sums::extrapolate(pace.step, &basis[..points], moments.blocks(), (&bases[0], rests), predicted);
+        let basis = (&basis[..points], terms);
+        sums::extrapolate(pace.step, basis, moments.blocks(), (&bases[0], rests), predicted);
         self.part.from_eigenbasis(predicted);
     }
 
@@ -130,14 +140,15 @@ impl Exponential {
         for (points, change) in watched().zip(&self.changes[1..]) {
             self.differences[points] = Some(self.norm.norm(change));
         }
+        self.compare_clocks(corrections[0]);
     }
 
     /// A change by what the last `points` values of N miss at the prediction, along the `polynomial` for their θ.
     fn correction(&self, points: usize, polynomial: fn(&[f64]) -> Coefficients) -> Correction {
-        let nodes = self.nodes(points);
-        let mut weights = [0.0; MOST_MOMENTS];
-        weights[..points].copy_from_slice(&lagrange(1.0, &nodes[..points]).value[..points]);
-        Correction { points, weights, terms: points + 1, polynomial: polynomial(&nodes[..points]) }
+        let nodes = self.nodes(points, self.substitution.clock());
+        let (weights, polynomial) = (weights_at_end(&nodes[..points]), polynomial(&nodes[..points]));
+        let terms = self.substitution.terms(points + 1);
+        Correction { points, weights, terms, polynomial: self.substitution.in_theta(polynomial) }
     }
 
     /// `changes` by the `corrections`, in the original basis.
@@ -148,11 +159,11 @@ impl Exponential {
     }
 }
 
-/// θ of `times`, in steps of `size` from `start`.
-fn nodes(times: &[f64], start: f64, size: f64) -> [f64; MOST_MOMENTS] {
-    let mut nodes = [0.0; MOST_MOMENTS];
-    nodes.iter_mut().zip(times).for_each(|(node, time)| *node = (time - start) / size);
-    nodes
+/// Weights of the polynomial through `nodes` at u = 1.
+fn weights_at_end(nodes: &[f64]) -> [f64; MOST_MOMENTS] {
+    let mut weights = [0.0; MOST_MOMENTS];
+    weights[..nodes.len()].copy_from_slice(&lagrange(1.0, nodes).value[..nodes.len()]);
+    weights
 }
 
 /// `rest` = N of the state `y` with the rate `f` in the eigenbasis, and `base` = y there.
@@ -196,7 +207,9 @@ impl Stepper for Exponential {
         // One more than the corrector's order: the balance is held to less than the tolerance of the state.
         self.integrals.serve_order(self.pace.order + 2);
         self.norm.rescale(problem, self.states.state(0));
-        self.moments.set(self.pace.step, self.part.rates(), (self.pace.order + 3).min(MOST_MOMENTS));
+        let (clock, order) = (StepClock::new(self.pace.stretch * self.pace.step), self.pace.order);
+        self.substitution = Substitution::new(clock, order + FOR_CLOCKS);
+        self.moments.set(self.pace.step, self.part.rates(), self.substitution.terms(order + 3));
         self.predict();
         problem.rate(&self.predicted, &mut self.candidate);
         counters.right_hand_sides += 1;
@@ -211,7 +224,7 @@ impl Stepper for Exponential {
     }
 
     fn integrals_ahead(&self, rates: [f64; INTEGRALS]) -> Integrals {
-        self.integrals.after(self.time() + self.pace.step, rates)
+        self.integrals.after(self.time() + self.pace.step, rates, self.pace.stretch)
     }
 
     fn hold(&mut self, size: f64) {
@@ -226,11 +239,11 @@ impl Stepper for Exponential {
         self.pace.hold();
     }
 
-    fn refuse(&mut self) {
-        self.fail(0.5);
+    fn refuse(&mut self, factor: f64) {
+        self.fail(factor);
     }
 
-    fn accept(&mut self, problem: &mut dyn Problem, integrals: Integrals) {
+    fn accept(&mut self, problem: &mut dyn Problem, integrals: Integrals, most_growth: f64) {
         let time = self.time() + self.pace.step;
         self.pace.accept();
         self.rests.rotate_right(1);
@@ -240,12 +253,10 @@ impl Stepper for Exponential {
         let Self { part, candidate, rates, rests, bases, .. } = self;
         decompose(part, candidate, rates.state(0), &mut rests[0], &mut bases[0]);
         let contraction = self.contraction();
-        self.plan(contraction);
+        self.plan(contraction, most_growth);
         self.states.push(time, &self.candidate);
         self.integrals = integrals;
         self.part_age += 1;
-        self.limited =
-            if contraction > control::STIFF { self.limited + 1 } else { self.limited.saturating_sub(1) };
     }
 
     /// The formula of the step itself, with the values of N at its end and before.
@@ -258,16 +269,21 @@ impl Stepper for Exponential {
             return self.integrals.at(time);
         }
         let size = time - times[1];
-        let basis = lagrange_basis(&nodes(&times[..points], times[1], size)[..points]);
+        let stretch = self.pace.last_stretch / (1.0 - self.pace.last_stretch * (times[0] - times[1]));
+        let substitution =
+            Substitution::new(StepClock::new(stretch * size), self.pace.last_order + FOR_CLOCKS);
+        let nodes = substitution.clock().nodes(&times[..points], times[1], size);
+        let basis = lagrange_basis(&nodes[..points]).map(|polynomial| substitution.in_theta(polynomial));
+        let terms = substitution.terms(points);
         let (mut moments, mut weights, mut last, mut decay) =
             ([0.0; MOST_MOMENTS], [0.0; MOST_MOMENTS], f64::NAN, 1.0);
         for (entry, (y, rate)) in y.iter_mut().zip(self.part.rates()).enumerate() {
             if rate.to_bits() != last.to_bits() {
                 last = *rate;
-                decay = moments_at(size * rate, &mut moments[..points]);
+                decay = moments_at(size * rate, &mut moments[..terms]);
                 for (weight, polynomial) in weights.iter_mut().zip(&basis[..points]) {
                     *weight =
-                        size * polynomial.iter().zip(&moments[..points]).map(|(a, m)| a * m).sum::<f64>();
+                        size * polynomial.iter().zip(&moments[..terms]).map(|(a, m)| a * m).sum::<f64>();
                 }
             }
             let driven = weights[..points].iter().zip(&self.rests).map(|(weight, rest)| weight * rest[entry]);

@@ -23,11 +23,11 @@ pub struct Correction {
     pub polynomial: Coefficients,
 }
 
-/// y = e^z y₀ + h Σⱼ Σᵢ pⱼᵢ mᵢ Nⱼ with the coefficients p of `basis`.
+/// y = e^z y₀ + h Σⱼ Σᵢ pⱼᵢ mᵢ Nⱼ with as many of the coefficients p of `basis` as it says.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 pub fn extrapolate(
     h: f64,
-    basis: &[Coefficients],
+    (basis, terms): (&[Coefficients], usize),
     blocks: &[Block],
     (start, rests): (&[f64], &[Vec<f64>]),
     y: &mut [f64],
@@ -35,21 +35,20 @@ pub fn extrapolate(
     let ((start, start_end), past) = (split(start), Past::of(rests, basis.len()));
     let (y, y_end) = y.as_chunks_mut();
     let (blocks, block_of_end) = blocks.split_at(y.len());
-    extrapolate_blocks(h, basis, blocks, (start, past.whole()), y);
+    extrapolate_blocks(h, (basis, terms), blocks, (start, past.whole()), y);
     let mut end = [[0.0; ENTRIES]];
-    extrapolate_blocks(h, basis, block_of_end, (&[start_end], &past.ends()), &mut end);
+    extrapolate_blocks(h, (basis, terms), block_of_end, (&[start_end], &past.ends()), &mut end);
     y_end.copy_from_slice(&end[0][..y_end.len()]);
 }
 
 #[inline(always)]
 fn extrapolate_blocks(
     h: f64,
-    basis: &[Coefficients],
+    (basis, terms): (&[Coefficients], usize),
     blocks: &[Block],
     (start, past): (&[Entries], &[&[Entries]]),
     y: &mut [Entries],
 ) {
-    let terms = basis.len();
     for ((index, block), (start, y)) in blocks.iter().enumerate().zip(start.iter().zip(y)) {
         let decay = twice(&block.decay);
         let mut sum: Entries = std::array::from_fn(|k| decay[k] * start[k]);
@@ -187,7 +186,7 @@ mod tests {
         let basis: [Coefficients; 3] =
             std::array::from_fn(|j| std::array::from_fn(|i| (1 + i + 3 * j) as f64 - 4.5));
         let [mut y, first, second] = std::array::from_fn(|_| vector(0.0));
-        extrapolate(h, &basis, moments.blocks(), (&start, &rests), &mut y);
+        extrapolate(h, (&basis, 3), moments.blocks(), (&start, &rests), &mut y);
         let correction =
             |points, terms| Correction { points, weights: basis[1], terms, polynomial: basis[2] };
         let mut changes = [first, second];

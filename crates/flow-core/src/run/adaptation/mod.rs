@@ -21,8 +21,9 @@ pub use error::ResolutionError;
 const LOOKS: u64 = 4;
 /// Where nodes crowd a look is dear: the first one after so many steps, then after twice as many, and so on.
 const FIRST_LOOK: u64 = 8;
-/// Part of the bound that fewer nodes must meet, and that new ones must where those at hand do not serve.
+/// Part of the bound that fewer nodes must meet, where they crowd, and that new ones must where those at hand do not serve.
 const MARGIN_OF_FEWER: f64 = 0.3;
+const MARGIN_OF_FEWER_IN_CROWDS: f64 = 0.15;
 const MARGIN_OF_MORE: f64 = 0.6;
 /// Fewer nodes must save this part of them.
 const WORTHWHILE: f64 = 0.7;
@@ -115,7 +116,12 @@ impl Adaptation {
         if resolved && !looks {
             return Look::Serve;
         }
-        let aim = self.bound * if resolved { MARGIN_OF_FEWER } else { MARGIN_OF_MORE };
+        let margin = match (resolved, self.grades) {
+            (false, _) => MARGIN_OF_MORE,
+            (true, false) => MARGIN_OF_FEWER,
+            (true, true) => MARGIN_OF_FEWER_IN_CROWDS,
+        };
+        let aim = self.bound * margin;
         let needed = |state| needed_nodes(layout, state, aim, family).clamp(LEAST_NODES, MOST_NODES);
         let same = if self.counts { needed(state) } else { mesh.nodes };
         let crowds = if self.grades { self.crowds(membrane, state, mesh.nodes, aim) } else { None };

@@ -190,7 +190,7 @@ impl Simulation {
     fn at_rest(&mut self, report: &StepReport) -> bool {
         self.equilibrium
             .as_mut()
-            .is_some_and(|watch| watch.reached(report.time, report.energy, report.dissipation))
+            .is_some_and(|watch| watch.reached(report.time, report.energy, report.settled_dissipation))
     }
 
     fn tell(&self, report: &StepReport, observer: &mut dyn Observer) -> ControlFlow<()> {
