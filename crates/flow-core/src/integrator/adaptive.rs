@@ -42,6 +42,8 @@ pub struct Adaptive<S> {
     options: AdaptiveOptions,
     energy: f64,
     rest: Rest,
+    /// Whether the last candidate was at rest, and above the last energy by its rounding alone.
+    idle: bool,
     counters: Counters,
 }
 
@@ -81,7 +83,7 @@ impl<S: Stepper> Adaptive<S> {
     #[must_use]
     pub fn new(stepper: S, options: AdaptiveOptions, energy: f64, counters: Counters) -> Self {
         let rest = Rest::new(stepper.time(), energy);
-        Self { stepper, options, energy, rest, counters }
+        Self { stepper, options, energy, rest, idle: false, counters }
     }
 
     /// Goes on with a watch that was kept before.
@@ -149,7 +151,7 @@ impl<S: Stepper> Adaptive<S> {
             }
             let mut outcome = self.attempt(problem);
             if let Err(cause) = outcome
-                && self.rest.reached(start)
+                && (self.rest.reached(start) || self.idle)
             {
                 rejections.count(cause);
                 self.counters.rejections.count(cause);
@@ -191,6 +193,7 @@ impl<S: Stepper> Adaptive<S> {
 
     /// The energy and both dissipations of [`StepReport`].
     fn attempt(&mut self, problem: &mut dyn Problem) -> Result<(f64, [f64; 2]), Rejection> {
+        self.idle = false;
         self.stepper.attempt(problem, &mut self.counters)?;
         let size = self.stepper.step_size();
         let time = self.stepper.time() + size;
@@ -210,7 +213,9 @@ impl<S: Stepper> Adaptive<S> {
         }
         match finish {
             Finish::NotFinite => Err(self.refuse(Rejection::NotFinite, LEAST_FACTOR)),
-            Finish::Good { energy, .. } if self.rises(problem, energy) => {
+            Finish::Good { energy, dissipation, .. } if self.rises(problem, energy) => {
+                let rounding = self.rounding(problem, energy);
+                self.idle = energy <= self.energy + 2.0 * rounding && dissipation * time <= rounding;
                 Err(self.refuse(Rejection::EnergyRise, LEAST_FACTOR))
             }
             Finish::Good { energy, dissipation, mut integral_rates } => {

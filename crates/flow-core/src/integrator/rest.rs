@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// Steps that the energy must have stayed the same.
-const STEPS: u32 = 20;
+const STEPS: u32 = 8;
 
 /// Watches the energy of the accepted states.
 ///

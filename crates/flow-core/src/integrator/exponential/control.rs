@@ -14,10 +14,12 @@ const STIFF: f64 = 0.4;
 /// … or its multiple of that from which on errors grow from step to step, where that is less.
 const UNSTABLE: f64 = 2.0;
 /// What a step counts at most whose error would have let it grow farther than the stiffness.
-const MOST_LIMITED: u32 = 4;
+const MOST_LIMITED: u32 = 8;
 /// What a step that is limited so counts, over what one that is not takes away again: at rest, where both corrections are
 /// rounding, they take turns.
 pub(super) const LIMITED: u32 = 2;
+/// Steps in which the clock is looked for; after them it is compared with others in every second one.
+const SEARCH: u64 = 16;
 /// Steps do not grow beyond this contraction: at one, rounding would.
 const MOST_CONTRACTION: f64 = 0.7;
 
@@ -54,12 +56,13 @@ impl Exponential {
     pub(super) fn compare_clocks(&mut self, correction: Correction) {
         let points = correction.points.max(2);
         self.best_stretch = self.pace.stretch;
-        if points <= self.states.len() {
+        let due = self.pace.accepted < SEARCH || self.pace.accepted.is_multiple_of(2);
+        if due && points <= self.states.len() {
             let others = clock::others(self.pace.stretch, self.pace.reach(self.states.times()));
             let stretches = [self.pace.stretch, others[0], others[1]];
             let mut corrections = [Correction { points, ..correction }; 3];
             for (correction, stretch) in corrections.iter_mut().zip(stretches) {
-                let nodes = self.nodes(points, StepClock::new(stretch * self.pace.step));
+                let nodes = self.nodes_by(points, StepClock::new(stretch * self.pace.step));
                 correction.weights = weights_at_end(&nodes[..points]);
             }
             self.change(&corrections);
@@ -111,10 +114,12 @@ impl Exponential {
             best = best.or(next(order - 1, self.error(order - 1), BIAS[0]));
             best = best.or(next(order + 1, self.error(order + 1), BIAS[2]));
         }
-        let (free, stable) = (best.growth.min(most_growth), MOST_CONTRACTION / contraction);
-        best.growth = free.min(stable);
+        let free = best.growth;
+        best.growth = free.min(MOST_CONTRACTION / contraction);
         self.limited = if contraction > stiff(order) {
-            self.limited + ((free / stable).powi(2) as u32).clamp(1, MOST_LIMITED)
+            // What the stiffness leaves in the stiffest modes takes the step out of balance before it shows in its error.
+            let lost = free / best.growth.min(most_growth);
+            self.limited + (lost.powi(2) as u32).clamp(1, MOST_LIMITED)
         } else {
             self.limited.saturating_sub(1)
         };

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Exponential, HIGHEST_ORDER, Moments, OLDEST_PART, StepClock, Substitution};
+use super::{Exponential, HIGHEST_ORDER, MOST_MOMENTS, Moments, OLDEST_PART, StepClock, Substitution};
 use crate::integrator::Problem;
 use crate::integrator::error_norm::ErrorNorm;
 use crate::integrator::history::{History, MOST_POINTS};
@@ -10,10 +10,17 @@ use crate::integrator::linear_part::LinearPart;
 use crate::integrator::memory::Memory;
 use crate::integrator::newton::Factorisation;
 
-/// Local errors may be as large as the tolerance, flows that are unstable for a while magnifying each of them; larger by a power of a
-/// looser tolerance, which takes a few steps only.
-const LOOSE: f64 = 1e-3;
-const SHARE_POWER: f64 = 0.3;
+/// Local errors may be as large as a tolerance of 1e-5, flows that are unstable for a while magnifying each of them; smaller, by the one power,
+/// with a tighter tolerance, whose errors add up over more steps, and larger, by the other, with one that takes a few steps only.
+const TIGHT: (f64, f64) = (1e-5, 0.15);
+const LOOSE: (f64, f64) = (1e-3, 0.5);
+
+/// Local error for which the global error is about the tolerance.
+fn local_tolerance(tolerance: f64) -> f64 {
+    let tight = (tolerance / TIGHT.0).min(1.0).powf(TIGHT.1);
+    tolerance * tight * (tolerance / LOOSE.0).max(1.0).powf(LOOSE.1)
+}
+
 /// Count of steps that the stiffness of the rest has limited, at which an implicit method takes over.
 const ENOUGH: u32 = 16 * super::control::LIMITED;
 
@@ -59,12 +66,13 @@ impl Exponential {
             rates: History::of(size, &rates),
             integrals: memory.integrals,
             norm: ErrorNorm::new(problem),
-            tolerance: tolerance * (tolerance / LOOSE).max(1.0).powf(SHARE_POWER),
+            tolerance: local_tolerance(tolerance),
             next_part: own.part.clone(),
             part: own.part,
             part_age: own.part_age.min(OLDEST_PART),
             moments: Moments::new(size),
             substitution: Substitution::new(StepClock::new(0.0), 1),
+            nodes: [0.0; MOST_MOMENTS],
             best_stretch: 0.0,
             rests: vec![zero(); MOST_POINTS],
             bases: [zero(), zero()],

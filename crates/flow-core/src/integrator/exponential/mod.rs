@@ -52,6 +52,8 @@ pub struct Exponential {
     part_age: usize,
     moments: Moments,
     substitution: Substitution,
+    /// u of the past states; no number where the clock does not run.
+    nodes: [f64; MOST_MOMENTS],
     /// N = f − Λy at the states in the eigenbasis, newest first; the newest states there.
     rests: Vec<Vec<f64>>,
     bases: [Vec<f64>; 2],
@@ -72,7 +74,7 @@ pub struct Exponential {
 
 impl Exponential {
     /// u of the last `points` states by `clock`.
-    fn nodes(&self, points: usize, clock: StepClock) -> [f64; MOST_MOMENTS] {
+    fn nodes_by(&self, points: usize, clock: StepClock) -> [f64; MOST_MOMENTS] {
         let times = self.states.times();
         clock.nodes(&times[..points], times[0], self.pace.step)
     }
@@ -111,8 +113,8 @@ impl Exponential {
 
     fn predict(&mut self) {
         let points = self.pace.order;
-        let basis = lagrange_basis(&self.nodes(points, self.substitution.clock())[..points])
-            .map(|polynomial| self.substitution.in_theta(polynomial));
+        let basis =
+            lagrange_basis(&self.nodes[..points]).map(|polynomial| self.substitution.in_theta(polynomial));
         let terms = self.substitution.terms(points);
         let Self { predicted, moments, bases, rests, pace, .. } = self;
         let basis = (&basis[..points], terms);
@@ -145,8 +147,8 @@ impl Exponential {
 
     /// A change by what the last `points` values of N miss at the prediction, along the `polynomial` for their θ.
     fn correction(&self, points: usize, polynomial: fn(&[f64]) -> Coefficients) -> Correction {
-        let nodes = self.nodes(points, self.substitution.clock());
-        let (weights, polynomial) = (weights_at_end(&nodes[..points]), polynomial(&nodes[..points]));
+        let nodes = &self.nodes[..points];
+        let (weights, polynomial) = (weights_at_end(nodes), polynomial(nodes));
         let terms = self.substitution.terms(points + 1);
         Correction { points, weights, terms, polynomial: self.substitution.in_theta(polynomial) }
     }
@@ -209,6 +211,7 @@ impl Stepper for Exponential {
         self.norm.rescale(problem, self.states.state(0));
         let (clock, order) = (StepClock::new(self.pace.stretch * self.pace.step), self.pace.order);
         self.substitution = Substitution::new(clock, order + FOR_CLOCKS);
+        self.nodes = self.nodes_by(self.states.len(), clock);
         self.moments.set(self.pace.step, self.part.rates(), self.substitution.terms(order + 3));
         self.predict();
         problem.rate(&self.predicted, &mut self.candidate);
