@@ -120,8 +120,8 @@ mod tests {
         let energies = times.map(|t| (-t).exp());
         let exact = -(0.5 * (1.0 + energies[3])).ln();
         assert!((halfway(&record(&times, &energies, &energies)) - exact).abs() < 3e-3);
-        // What an implicit solve leaves in a dissipation changes little.
+        // What an implicit solve leaves in a dissipation does not lead out of the step.
         let spoilt = [energies[0], energies[1], 1e9, energies[3]];
-        assert!((halfway(&record(&times, &energies, &spoilt)) - exact).abs() < 0.25);
+        assert!((0.2..1.2).contains(&halfway(&record(&times, &energies, &spoilt))));
     }
 }
