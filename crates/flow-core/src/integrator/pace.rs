@@ -131,7 +131,7 @@ impl Pace {
             self.steps_at_order = 0;
         }
         self.order = order;
-        let reach = times[0] + self.step - times[(order + 1).min(times.len() - 1)];
+        let reach = self.reach(times) + self.step;
         self.last_stretch = self.stretch / (1.0 + self.stretch * self.step);
         self.stretch = (next.stretch / (1.0 + run)).min(fastest(reach));
         self.step *= scaled(growth.min(by_time(most_growth)).max(LEAST));

@@ -1,10 +1,8 @@
 //! The guards of the step loop, on a problem that a caller brings.
 
-use std::ops::Range;
+use flow_core::integrator::{Adaptive, AdaptiveOptions, Counters, INTEGRALS, Integrals, Multistep, Stepper};
 
-use flow_core::integrator::{
-    Adaptive, AdaptiveOptions, Counters, Finish, INTEGRALS, Integrals, Multistep, Problem, Stepper,
-};
+use crate::scalar::{Law, Scalar};
 
 /// What a candidate says beside its state: energy and rates of the integrals.
 type Word = (f64, [f64; INTEGRALS]);
@@ -24,54 +22,20 @@ fn word(y: f64) -> Word {
     (0.5 * y * y, [y * y, y, 0.0, 0.0])
 }
 
-impl Problem for Decay {
-    fn size(&self) -> usize {
-        1
+impl Law for Decay {
+    fn rate(&self, y: f64) -> f64 {
+        -y
     }
 
-    // One block.
-    #[allow(clippy::single_range_in_vec_init)]
-    fn blocks(&self) -> Vec<Range<usize>> {
-        vec![0..1]
+    fn slope(&self, _: f64) -> f64 {
+        -1.0
     }
 
-    fn block_floor(&self, _: usize, _: &[f64]) -> f64 {
-        f64::MIN_POSITIVE
+    fn word(&self, time: f64, y: f64) -> Word {
+        if time > self.accepted + FAR { (self.spoilt)(word(y)) } else { word(y) }
     }
 
-    fn rate(&mut self, y: &[f64], rate: &mut [f64]) {
-        rate[0] = -y[0];
-    }
-
-    fn linearise(&mut self, y: &[f64], rate: &mut [f64]) {
-        self.rate(y, rate);
-    }
-
-    fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
-        out[0] = -v[0];
-    }
-
-    fn factorise(&mut self, _: f64) -> bool {
-        true
-    }
-
-    fn precondition(&mut self, _: &mut [f64]) {}
-
-    fn weigh(&self, _: &mut [f64]) {}
-
-    fn unweigh(&self, _: &mut [f64]) {}
-
-    fn krylov_feedback(&mut self, _: usize) -> bool {
-        false
-    }
-
-    fn finish(&mut self, time: f64, y: &mut [f64]) -> Finish {
-        let far = time > self.accepted + FAR;
-        let (energy, integral_rates) = if far { (self.spoilt)(word(y[0])) } else { word(y[0]) };
-        Finish::Good { energy, dissipation: integral_rates[0], integral_rates }
-    }
-
-    fn accepted(&mut self, time: f64, _: [f64; INTEGRALS]) {
+    fn accepted(&mut self, time: f64) {
         self.accepted = time;
     }
 }
@@ -85,7 +49,7 @@ fn a_step_whose_balance_is_no_number_is_not_taken() {
         ("another integral", |(energy, [a, _, c, d])| (energy, [a, f64::NAN, c, d])),
     ];
     for (name, spoilt) in spoilt {
-        let mut problem = Decay { spoilt, accepted: 0.0 };
+        let mut problem = Scalar::new(Decay { spoilt, accepted: 0.0 });
         let (y, tolerance, mut counters) = ([2.0], 1e-4, Counters::default());
         let (energy, rates) = word(y[0]);
         let integrals = Integrals::new(0.0, [0.0; INTEGRALS], rates);

@@ -17,6 +17,7 @@ mod mobilities;
 mod mobility_laws;
 mod pointwise_force;
 mod regrading;
+mod scalar;
 mod second_derivative;
 mod stability;
 mod states;

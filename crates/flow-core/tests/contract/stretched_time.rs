@@ -1,17 +1,13 @@
 //! Steps in stretched time: what settles by a power of the time, on a problem that a caller brings.
 
-use std::ops::Range;
-
 use flow_core::integrator::{
-    Adaptive, AdaptiveOptions, Bdf, Counters, Finish, INTEGRALS, Integrals, LinearPart, Multistep, Problem,
-    Stepper,
+    Adaptive, AdaptiveOptions, Bdf, Counters, INTEGRALS, Integrals, Multistep, Stepper,
 };
 
+use crate::scalar::{Law, Scalar};
+
 /// ẏ = −y³ from y = 1000, the gradient flow of y⁴/4: y = (2t + 10⁻⁶)^{−1/2}.
-struct Power {
-    /// J at the last linearisation.
-    slope: f64,
-}
+struct Power;
 
 const START: f64 = 1e3;
 const END: f64 = 1e4;
@@ -24,69 +20,31 @@ fn rates(y: f64) -> [f64; INTEGRALS] {
     [y.powi(6), y, 0.0, 0.0]
 }
 
-impl Problem for Power {
-    fn size(&self) -> usize {
-        1
+impl Law for Power {
+    fn rate(&self, y: f64) -> f64 {
+        -y.powi(3)
     }
 
-    // One block.
-    #[allow(clippy::single_range_in_vec_init)]
-    fn blocks(&self) -> Vec<Range<usize>> {
-        vec![0..1]
+    fn slope(&self, y: f64) -> f64 {
+        -3.0 * y.powi(2)
     }
 
-    fn block_floor(&self, _: usize, _: &[f64]) -> f64 {
-        f64::MIN_POSITIVE
+    fn word(&self, _: f64, y: f64) -> (f64, [f64; INTEGRALS]) {
+        (0.25 * y.powi(4), rates(y))
     }
 
-    fn rate(&mut self, y: &[f64], rate: &mut [f64]) {
-        rate[0] = -y[0].powi(3);
-    }
-
-    fn linearise(&mut self, y: &[f64], rate: &mut [f64]) {
-        self.rate(y, rate);
-        self.slope = -3.0 * y[0].powi(2);
-    }
-
-    fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
-        out[0] = self.slope * v[0];
-    }
-
-    fn factorise(&mut self, _: f64) -> bool {
+    fn is_exponential(&self) -> bool {
         true
     }
-
-    fn precondition(&mut self, _: &mut [f64]) {}
-
-    fn weigh(&self, _: &mut [f64]) {}
-
-    fn unweigh(&self, _: &mut [f64]) {}
-
-    fn krylov_feedback(&mut self, _: usize) -> bool {
-        false
-    }
-
-    fn finish(&mut self, _: f64, y: &mut [f64]) -> Finish {
-        let integral_rates = rates(y[0]);
-        Finish::Good { energy: 0.25 * y[0].powi(4), dissipation: integral_rates[0], integral_rates }
-    }
-
-    fn linear_part(&mut self, y: &[f64], part: &mut LinearPart) -> bool {
-        part.clear(1, 0);
-        part.drive_by_last(|_, column| column[0] = -3.0 * y[0].powi(2), |_, _| true);
-        true
-    }
-
-    fn accepted(&mut self, _: f64, _: [f64; INTEGRALS]) {}
 }
 
 /// Steps over ten decades of the time since the singularity that the solution comes from; the largest relative errors at their
 /// ends, and between them in what a frame would show.
 fn steps_and_errors<S: Stepper>(
     tolerance: f64,
-    start: impl FnOnce(&mut Power, &mut Counters) -> S,
+    start: impl FnOnce(&mut Scalar<Power>, &mut Counters) -> S,
 ) -> (u64, [f64; 2]) {
-    let (mut problem, mut counters) = (Power { slope: 0.0 }, Counters::default());
+    let (mut problem, mut counters) = (Scalar::new(Power), Counters::default());
     let stepper = start(&mut problem, &mut counters);
     let options = AdaptiveOptions { end: END, most_steps: 10_000, energy_tolerance: 0.01 * tolerance };
     let mut integration = Adaptive::new(stepper, options, 0.25 * START.powi(4), counters);

@@ -105,6 +105,12 @@ impl EnergySum {
         self.terms.iter().find_map(|term| term.fault(fields))
     }
 
+    /// Whether something holds the length: a penalty on it, or an energy of positions.
+    #[must_use]
+    pub fn holds_length(&self, length: f64) -> bool {
+        self.shape.is_some() || self.of_length(length).second != 0.0
+    }
+
     /// Pointwise second derivatives at the state evaluated last with [`EnergySum::linearise`].
     #[must_use]
     pub fn jet(&self) -> &Jet {

@@ -64,10 +64,13 @@ pub fn set(part: &mut LinearPart, flow: &mut GradientFlow) -> bool {
             }
         }
     }
-    part.drive_by_last(
-        |unit, column| flow.implicit_product(unit, column),
-        |own, slowest| -own > STIFF * slowest,
-    );
+    // Curvature alone holds no length more stiffly than its own slowest waves.
+    if fields > 1 || flow.energy_terms().holds_length(length) {
+        part.drive_by_last(
+            |unit, column| flow.implicit_product(unit, column),
+            |own, slowest| -own > STIFF * slowest,
+        );
+    }
     part.fits(2 * fields * modes + 1) && !grows(part.rates(), fields, modes)
 }
 
