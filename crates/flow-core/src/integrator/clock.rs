@@ -30,8 +30,8 @@ impl Clock {
 
     /// τ at `time`.
     pub fn at(&self, time: f64) -> f64 {
-        let since = time - self.start;
-        if self.rate == 0.0 { since } else { (self.rate * since).ln_1p() / self.rate }
+        let stretched = stretched(self.rate, time - self.start);
+        if self.rate == 0.0 { stretched } else { stretched / self.rate }
     }
 
     /// τ at `times`.
@@ -45,6 +45,11 @@ impl Clock {
     pub fn slope(&self, time: f64) -> f64 {
         1.0 + self.rate * (time - self.start)
     }
+}
+
+/// τ `since` t₀ at the rate c = `rate`, up to the factor 1/c: ln(1 + c(t − t₀)), or t − t₀.
+pub fn stretched(rate: f64, since: f64) -> f64 {
+    if rate == 0.0 { since } else { (rate * since).ln_1p() }
 }
 
 /// The fastest clock that runs at times as long ago as `reach`.
@@ -61,15 +66,15 @@ pub fn others(rate: f64, reach: f64) -> [f64; 2] {
     [if slower < SLOWEST / reach { 0.0 } else { slower }, (RATIO * rate).min(fastest(reach))]
 }
 
-/// The best of `rate` and others by how much a polynomial misses in the time of each; that of others is `missed`.
-pub fn best(rate: f64, missed_by_rate: f64, others: impl IntoIterator<Item = (f64, f64)>) -> f64 {
-    let mut best = (KEPT * missed_by_rate, rate);
-    for (other, missed) in others {
-        if missed < best.0 {
-            best = (missed, other);
+/// The best of `present` and `others`, rates with how much a polynomial misses in the time of each.
+pub fn best(present: (f64, f64), others: impl IntoIterator<Item = (f64, f64)>) -> (f64, f64) {
+    let (mut best, mut bound) = (present, KEPT * present.1);
+    for other in others {
+        if other.1 < bound {
+            (best, bound) = (other, other.1);
         }
     }
-    best.1
+    best
 }
 
 #[cfg(test)]
@@ -110,8 +115,8 @@ mod tests {
 
     #[test]
     fn another_clock_must_be_better_by_much() {
-        assert_eq!(best(1.0, 1.0, [(0.5, 0.95), (2.0, 0.99)]), 1.0);
-        assert_eq!(best(1.0, 1.0, [(0.5, 0.8), (2.0, 0.7)]), 2.0);
-        assert_eq!(best(1.0, f64::NAN, [(0.5, 0.8)]), 1.0);
+        assert_eq!(best((1.0, 1.0), [(0.5, 0.95), (2.0, 0.99)]), (1.0, 1.0));
+        assert_eq!(best((1.0, 1.0), [(0.5, 0.8), (2.0, 0.7)]), (2.0, 0.7));
+        assert_eq!(best((1.0, f64::NAN), [(0.5, 0.8)]).0, 1.0);
     }
 }

@@ -5,6 +5,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::INTEGRALS;
+use super::clock::stretched;
 
 /// Values that a polynomial goes through at most.
 const POINTS: usize = 7;
@@ -120,10 +121,7 @@ impl Integrals {
         // In units of the step: products of differences of times alone may underflow.
         let step = times[0] - start;
         let run = self.stretch * step;
-        let scale = |time: f64| {
-            let theta = (time - start) / step;
-            if run == 0.0 { theta } else { (run * theta).ln_1p() }
-        };
+        let scale = |time: f64| stretched(run, (time - start) / step);
         let mut scaled = self.times;
         for time in &mut scaled {
             *time = scale(*time);

@@ -168,9 +168,10 @@ pub trait Stepper {
     fn integrals_ahead(&self, rates: [f64; INTEGRALS]) -> Integrals;
     /// Takes a step of size `size` in which the state and the integrals stay.
     fn hold(&mut self, size: f64);
-    /// Throws the candidate away for a cause found outside and reduces the step size.
+    /// Throws the candidate away for a cause found outside and reduces the step size by `factor`.
     fn refuse(&mut self, factor: f64);
-    /// Accepts the candidate, which `problem` has finished last, with the integrals at it.
+    /// Accepts the candidate, which `problem` has finished last, with the integrals at it; by the clock the next step is at most
+    /// `most_growth` times as long.
     fn accept(&mut self, problem: &mut dyn Problem, integrals: Integrals, most_growth: f64);
     /// State at a time within the last accepted step.
     fn interpolate(&self, time: f64, y: &mut [f64]) -> [f64; INTEGRALS];

@@ -8,6 +8,16 @@ use crate::integrator::pace::Next;
 const BIAS: [f64; 3] = [4.0, 4.0, 6.0];
 
 impl Bdf {
+    /// Factor between ‖y − ỹ‖ and the local error of the fixed-leading-coefficient formula.
+    pub(super) fn error_factor(&self) -> f64 {
+        let (end, times) = self.stretched(self.clock());
+        let alpha = |back: usize| end / (end - times[back]);
+        let last = alpha(self.pace.order);
+        let alpha_0: f64 = -(0..self.pace.order).map(alpha).sum::<f64>();
+        let alpha_s = -self.leading_coefficient();
+        last.max((last + alpha_s - alpha_0).abs())
+    }
+
     /// How far the polynomial of degree `order` in the time of `clock` misses the candidate.
     fn missed(&mut self, order: usize, clock: Clock) -> f64 {
         let weights = self.predictor(order, clock);
@@ -18,14 +28,15 @@ impl Bdf {
         self.norm.norm(&self.difference)
     }
 
-    /// Estimate of the local error of order `order` at constant step of `clock`: ‖h^{k+1} y^{(k+1)}‖/(k + 1).
-    fn error_of_order(&mut self, order: usize, clock: Clock) -> f64 {
+    /// Estimate of the local error of order `order` at constant step of `clock`, ‖h^{k+1} y^{(k+1)}‖/(k + 1), from what the polynomial
+    /// of that degree has `missed`.
+    fn error_of_order(&self, order: usize, clock: Clock, missed: f64) -> f64 {
         let mut factor = 1.0 / (order + 1) as f64;
-        let (end, times) = (clock.at(self.candidate_time()), clock.all(self.history.times()));
+        let (end, times) = self.stretched(clock);
         for back in 0..=order {
             factor *= end / (end - times[back]) * (back + 1) as f64;
         }
-        factor * self.missed(order, clock)
+        factor * missed
     }
 
     /// Ratio of the next step size that keeps an error at the tolerance.
@@ -33,30 +44,32 @@ impl Bdf {
         1.0 / ((bias * error / self.tolerance).powf(1.0 / (order + 1) as f64) + 1e-6)
     }
 
-    /// The rate of the clock that would have served this step best.
-    fn best_stretch(&mut self) -> f64 {
-        let (order, current, start) = (self.pace.order, self.pace.stretch, self.history.times()[0]);
-        let others = clock::others(current, self.pace.reach(self.history.times()));
+    /// The rate of the clock that would have served this step best, with how much its polynomial misses.
+    fn best_stretch(&mut self) -> (f64, f64) {
+        let (order, present, start) = (self.pace.order, self.pace.stretch, self.history.times()[0]);
+        let others = clock::others(present, self.pace.reach(self.history.times()));
         let missed = self.missed(order, self.clock());
         let others = others.map(|other| (other, self.missed(order, Clock::new(start, other))));
-        clock::best(current, missed, others)
+        clock::best((present, missed), others)
     }
 
     /// Order and step size after an accepted candidate (which is not yet in the history).
     pub(super) fn plan(&mut self, most_growth: f64) {
-        let (order, stretch) = (self.pace.order, self.best_stretch());
+        let (order, (stretch, missed)) = (self.pace.order, self.best_stretch());
         let clock = Clock::new(self.history.times()[0], stretch);
-        let next = |bdf: &mut Self, order, bias| {
-            let error = bdf.error_of_order(order, clock);
+        let next = |bdf: &Self, order, missed, bias| {
+            let error = bdf.error_of_order(order, clock, missed);
             Next { order, growth: bdf.growth(error, order, bias), stretch }
         };
-        let mut best = next(self, order, BIAS[1]);
+        let mut best = next(self, order, missed, BIAS[1]);
         if self.pace.steps_at_order > order {
             if order > 1 {
-                best = best.or(next(self, order - 1, BIAS[0]));
+                let missed = self.missed(order - 1, clock);
+                best = best.or(next(self, order - 1, missed, BIAS[0]));
             }
             if order < HIGHEST_ORDER && self.history.len() > order + 1 {
-                best = best.or(next(self, order + 1, BIAS[2]));
+                let missed = self.missed(order + 1, clock);
+                best = best.or(next(self, order + 1, missed, BIAS[2]));
             }
         }
         self.pace.go_on(best, most_growth, self.history.times(), |factor| factor);

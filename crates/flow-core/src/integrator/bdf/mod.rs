@@ -154,23 +154,17 @@ impl Bdf {
         self.history.times()[0] + self.pace.step
     }
 
-    /// Of the polynomial in τ through the last states, at the end of the step; the derivative by the time.
-    fn predictor(&self, order: usize, clock: Clock) -> Weights {
-        let end = self.candidate_time();
-        let mut weights = lagrange(clock.at(end), &clock.all(self.history.times())[..=order]);
-        weights.derivative.iter_mut().for_each(|weight| *weight /= clock.slope(end));
-        weights
+    /// τ by `clock` at the end of the step, and at the past states.
+    fn stretched(&self, clock: Clock) -> (f64, [f64; MOST_POINTS]) {
+        (clock.at(self.candidate_time()), clock.all(self.history.times()))
     }
 
-    /// Factor between ‖y − ỹ‖ and the local error of the fixed-leading-coefficient formula.
-    fn error_factor(&self) -> f64 {
-        let clock = self.clock();
-        let (end, times) = (clock.at(self.candidate_time()), clock.all(self.history.times()));
-        let alpha = |back: usize| end / (end - times[back]);
-        let last = alpha(self.pace.order);
-        let alpha_0: f64 = -(0..self.pace.order).map(alpha).sum::<f64>();
-        let alpha_s = -self.leading_coefficient();
-        last.max((last + alpha_s - alpha_0).abs())
+    /// Of the polynomial in τ through the last states, at the end of the step; the derivative by the time.
+    fn predictor(&self, order: usize, clock: Clock) -> Weights {
+        let ((end, times), slope) = (self.stretched(clock), clock.slope(self.candidate_time()));
+        let mut weights = lagrange(end, &times[..=order]);
+        weights.derivative.iter_mut().for_each(|weight| *weight /= slope);
+        weights
     }
 }
 

@@ -58,17 +58,20 @@ impl Exponential {
         self.best_stretch = self.pace.stretch;
         let due = self.pace.accepted < SEARCH || self.pace.accepted.is_multiple_of(2);
         if due && points <= self.states.len() {
-            let others = clock::others(self.pace.stretch, self.pace.reach(self.states.times()));
-            let stretches = [self.pace.stretch, others[0], others[1]];
+            let present = self.pace.stretch;
+            let [first, second] = clock::others(present, self.pace.reach(self.states.times()));
             let mut corrections = [Correction { points, ..correction }; 3];
-            for (correction, stretch) in corrections.iter_mut().zip(stretches) {
+            for (correction, stretch) in corrections.iter_mut().zip([first, second, present]) {
                 let nodes = self.nodes_by(points, StepClock::new(stretch * self.pace.step));
                 correction.weights = weights_at_end(&nodes[..points]);
             }
-            self.change(&corrections);
+            // The corrector's own change is the last of the three, if it has as many points.
+            let own = (points == correction.points).then(|| self.norm.norm(&self.changes[0]));
+            self.change(&corrections[..if own.is_some() { 2 } else { 3 }]);
             let missed = |change: usize| self.norm.norm(&self.changes[change]);
-            let others = others.into_iter().zip([missed(1), missed(2)]);
-            self.best_stretch = clock::best(self.pace.stretch, missed(0), others);
+            let own = own.unwrap_or_else(|| missed(2));
+            let others = [(first, missed(0)), (second, missed(1))];
+            self.best_stretch = clock::best((present, own), others).0;
         }
     }
 

@@ -22,7 +22,7 @@ use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
 use crate::geometry::vectors::add_scaled_product;
 pub use memory::ExponentialMemory;
 use moments::{Moments, moments_at};
-use polynomials::{Coefficients, lagrange_basis, of_last_point, of_new_value};
+use polynomials::{Coefficients, of_last_point, of_new_value};
 use substitution::{StepClock, Substitution};
 use sums::Correction;
 
@@ -113,8 +113,7 @@ impl Exponential {
 
     fn predict(&mut self) {
         let points = self.pace.order;
-        let basis =
-            lagrange_basis(&self.nodes[..points]).map(|polynomial| self.substitution.in_theta(polynomial));
+        let basis = self.substitution.lagrange_basis(&self.nodes[..points]);
         let terms = self.substitution.terms(points);
         let Self { predicted, moments, bases, rests, pace, .. } = self;
         let basis = (&basis[..points], terms);
@@ -276,7 +275,7 @@ impl Stepper for Exponential {
         let substitution =
             Substitution::new(StepClock::new(stretch * size), self.pace.last_order + FOR_CLOCKS);
         let nodes = substitution.clock().nodes(&times[..points], times[1], size);
-        let basis = lagrange_basis(&nodes[..points]).map(|polynomial| substitution.in_theta(polynomial));
+        let basis = substitution.lagrange_basis(&nodes[..points]);
         let terms = substitution.terms(points);
         let (mut moments, mut weights, mut last, mut decay) =
             ([0.0; MOST_MOMENTS], [0.0; MOST_MOMENTS], f64::NAN, 1.0);

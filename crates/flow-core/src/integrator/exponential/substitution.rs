@@ -5,6 +5,7 @@ use std::sync::LazyLock;
 
 use super::MOST_MOMENTS;
 use super::polynomials::{Coefficients, lagrange_basis};
+use crate::integrator::clock::stretched;
 
 /// Points of an interpolation on [0, 1], both ends among them, and its Lagrange polynomials.
 struct Interpolation {
@@ -37,7 +38,7 @@ impl StepClock {
     }
 
     fn at(&self, theta: f64) -> f64 {
-        if self.run == 0.0 { theta } else { self.scale * (self.run * theta).ln_1p() }
+        self.scale * stretched(self.run, theta)
     }
 
     /// u of `times`, in steps of `size` from `start`.
@@ -62,8 +63,8 @@ impl Substitution {
     /// By polynomials of `terms` coefficients.
     pub fn new(clock: StepClock, terms: usize) -> Self {
         let mut powers = [[0.0; MOST_MOMENTS]; MOST_MOMENTS];
-        let Interpolation { points, basis } = &INTERPOLATIONS[terms];
         if clock.run != 0.0 {
+            let Interpolation { points, basis } = &INTERPOLATIONS[terms];
             for (point, polynomial) in points.iter().zip(&basis[..terms]) {
                 let (u, mut power) = (clock.at(*point), 1.0);
                 for coefficients in &mut powers[..terms] {
@@ -85,6 +86,13 @@ impl Substitution {
     /// How many coefficients a polynomial in u of `terms` coefficients has in θ.
     pub fn terms(&self, terms: usize) -> usize {
         if self.clock.run == 0.0 { terms } else { self.terms }
+    }
+
+    /// The Lagrange polynomials of `nodes`, values of u, as polynomials in θ.
+    pub fn lagrange_basis(&self, nodes: &[f64]) -> [Coefficients; MOST_MOMENTS] {
+        let mut basis = lagrange_basis(nodes);
+        basis[..nodes.len()].iter_mut().for_each(|polynomial| *polynomial = self.in_theta(*polynomial));
+        basis
     }
 
     /// A polynomial in u as one in θ.
