@@ -55,7 +55,14 @@ impl Tree {
             Tree::Raised(a, power) => {
                 let (a, error) = a.value(variables);
                 let n = f64::from(*power);
-                (a.powf(n), (n * a.powf(n - 1.0)).abs() * error + n.abs() * a.powf(n).abs() * f64::EPSILON)
+                let value = a.powf(n);
+                // Not n aⁿ⁻¹ times the error: where a is large and n < 0, that underflows before aⁿ does.
+                let inherited = match (a == 0.0, error == 0.0) {
+                    (_, true) => 0.0,
+                    (true, false) => (n * a.powf(n - 1.0)).abs() * error,
+                    (false, false) => (n * value).abs() * (error / a.abs()),
+                };
+                (value, inherited + n.abs() * value.abs() * f64::EPSILON)
             }
         };
         (value, inherited + 4.0 * f64::EPSILON * value.abs())
