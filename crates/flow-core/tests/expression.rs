@@ -2,6 +2,7 @@
 
 use flow_core::expression::{Expression, ExpressionError, Program};
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 
 const VARIABLES: [&str; 2] = ["kappa", "rho"];
 const FUNCTIONS: [&str; 10] = ["exp", "ln", "sqrt", "sin", "cos", "tan", "sinh", "cosh", "tanh", "abs"];
@@ -122,6 +123,14 @@ fn is_well_conditioned(value: f64, error: f64) -> bool {
 }
 
 proptest! {
+    // A fixed seed: what fails does so on every machine. More cases and other seeds were tried when this was written.
+    #![proptest_config(ProptestConfig {
+        cases: 4000,
+        failure_persistence: None,
+        rng_seed: RngSeed::Fixed(20_261_128),
+        ..ProptestConfig::default()
+    })]
+
     /// Text and parser are inverse to each other, to the last bit of the value.
     #[test]
     fn parsing_keeps_the_meaning(tree in any_tree(), kappa in -3.0..3.0, rho in 0.0..2.0) {

@@ -77,7 +77,9 @@ proptest! {
                     (measured + told.dissipation).abs() <= bound,
                     "{term:?}, {normal:?}, {densities:?}, {family:?}, n = {nodes}: {measured} ≠ −{}", told.dissipation
                 );
-                prop_assert!(told.dissipation >= -OF_THE_NORMS * norms, "{term:?}, {normal:?}, {family:?}");
+                // What holds the area takes away all of a pressure, up to the rounding of the pressure itself.
+                let least = -OF_THE_NORMS * (norms + size(layout, &gradient).powi(2));
+                prop_assert!(told.dissipation >= least, "{term:?}, {normal:?}, {family:?}");
                 prop_assert_eq!(told, flow.dissipation_at(&state.y));
             }
         }
