@@ -2,8 +2,8 @@
 
 use bytemuck::{cast_slice, cast_slice_mut};
 use flow_core::geometry::vectors::{
-    add_real_symbol, add_scaled, apply_real_symbol, apply_symbol, dot, mean, mean_of_product, multiply_by,
-    multiply_by_conjugate, multiply_into, scale_into, shift_into,
+    add_product, add_real_symbol, add_scaled, apply_real_symbol, apply_symbol, dot, mean, mean_of_product,
+    multiply_by, multiply_by_conjugate, multiply_into, scale_into, shift_into,
 };
 use flow_core::geometry::{Complex64, PeriodicGrid};
 use flow_core::operators::{Derivative, DerivativeFamily};
@@ -34,6 +34,8 @@ pub(super) struct BendingFlow {
     velocity: Vec<f64>,
     /// Z − π at the state evaluated last, and at the linearisation: minus the tension.
     stretching: [Vec<f64>; 2],
+    /// δκ at the nodes.
+    motion: Vec<f64>,
     values: Vec<f64>,
     product: Vec<f64>,
     spectrum: Vec<Complex64>,
@@ -58,6 +60,7 @@ impl BendingFlow {
             by_length: 0.0,
             velocity: field.clone(),
             stretching: [field.clone(), field.clone()],
+            motion: field.clone(),
             values: field.clone(),
             product: field,
             spectrum,
@@ -116,22 +119,13 @@ impl BendingFlow {
         let length_motion = v[turning];
         scale_into(cast_slice_mut(&mut self.spectrum), 1.0 / length, &v[..turning]);
         add_scaled(cast_slice_mut(&mut self.spectrum), -length_motion / length, cast_slice(spectrum));
-        self.grid.synthesise(&self.spectrum, &mut self.values);
-        multiply_into(&mut self.product, &self.stiffness, &self.values);
+        self.grid.synthesise(&self.spectrum, &mut self.motion);
+        multiply_into(&mut self.product, &self.stiffness, &self.motion);
         self.grid.transform(&self.product, &mut self.gradient);
         self.by_length = -mean_product(&self.grid, spectrum, &self.gradient);
         self.descend(true);
-        self.add_tension(v);
-    }
-
-    /// (Z − π)δκ, (F20).
-    fn add_tension(&mut self, v: &[f64]) {
-        let turning = 2 * self.frozen.spectrum.len();
-        let inverse = 1.0 / self.frozen.length;
-        self.spectrum.copy_from_slice(cast_slice(&v[..turning]));
-        self.grid.synthesise(&self.spectrum, &mut self.values);
-        let fields = [&self.stretching[1][..], &self.values, &self.frozen.curvature];
-        add_tension(&mut self.velocity, fields, v[turning], inverse);
+        // (Z − π)δκ, (F20).
+        add_product(&mut self.velocity, &self.stretching[1], &self.motion);
     }
 
     /// V = f of the gradient at hand.
@@ -233,15 +227,6 @@ fn bend(b: f64, kappa: &[f64], density: &mut [f64], moment: &mut [f64]) {
     for ((e, moment), kappa) in density.iter_mut().zip(moment).zip(kappa) {
         *e = 0.5 * b * kappa * kappa;
         *moment = b * kappa;
-    }
-}
-
-/// f += (Z − π)(δK − κ δ|Γ|)/|Γ|.
-#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn add_tension(f: &mut [f64], [stretching, change, kappa]: [&[f64]; 3], length_motion: f64, inverse: f64) {
-    for (((f, stretching), change), kappa) in f.iter_mut().zip(stretching).zip(change).zip(kappa) {
-        *f += stretching * change * inverse;
-        *f -= stretching * kappa * length_motion * inverse;
     }
 }
 

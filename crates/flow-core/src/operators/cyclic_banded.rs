@@ -5,6 +5,8 @@
 //! blocks are matrices with Dirichlet ends); what is left couples the separators, a small dense matrix, which is
 //! pivoted. See `THEORY.md`, eq. (O2).
 
+use std::ops::Range;
+
 use super::band_factors::{Factors, LANES, Lane, eliminate, substitute_backward, substitute_forward};
 use super::small_lu::SmallLu;
 
@@ -20,11 +22,13 @@ pub struct FactorisationError {
 
 /// A cyclic matrix with `B` bands on each side of the diagonal.
 ///
-/// Rows are numbered within their segment: first unit rows that make all segments equally long, then the interior,
+/// Rows have a place within their segment: first unit rows that make all segments equally long, then the interior,
 /// then the `B` rows of the separator.
 #[derive(Clone, Debug)]
 pub struct CyclicBanded<const B: usize> {
     rows: usize,
+    /// Rows that belong together.
+    block: usize,
     segments: usize,
     /// First row of each segment, and the end of the last.
     starts: Vec<usize>,
@@ -39,23 +43,24 @@ impl<const B: usize> CyclicBanded<B> {
     /// A zero matrix of `rows` ≥ 3`B` rows.
     #[must_use]
     pub fn new(rows: usize) -> Self {
+        Self::in_blocks(rows, 1)
+    }
+
+    /// A zero matrix of `rows` ≥ 3`B` rows in blocks of `block`, which no segment cuts.
+    #[must_use]
+    pub fn in_blocks(rows: usize, block: usize) -> Self {
         assert!(rows >= 3 * B, "a cyclic band of half-width {B} needs {} rows", 3 * B);
-        let segments = (rows / (2 * B)).clamp(1, LANES);
-        let starts: Vec<usize> = (0..=segments).map(|segment| segment * rows / segments).collect();
-        let longest = rows.div_ceil(segments);
+        assert!(rows.is_multiple_of(block), "{rows} rows in blocks of {block}");
+        let blocks = rows / block;
+        let segments = (blocks / (2 * B).div_ceil(block)).clamp(1, LANES);
+        let starts: Vec<usize> = (0..=segments).map(|segment| segment * blocks / segments * block).collect();
+        let longest = blocks.div_ceil(segments) * block;
         let mut banded = Self {
             rows,
+            block,
             segments,
             starts,
-            factors: Factors {
-                interior: longest - B,
-                lower: vec![[[0.0; LANES]; B]; longest],
-                diagonal: vec![[1.0; LANES]; longest],
-                upper: vec![[[0.0; LANES]; B]; longest],
-                right: vec![[[0.0; LANES]; B]; longest],
-                bottom: vec![[[0.0; LANES]; B]; longest],
-                corner: [[[0.0; LANES]; B]; B],
-            },
+            factors: Factors::new(longest),
             separators: SmallLu::new(segments * B),
             reduced: vec![0.0; segments * B],
             work: vec![[0.0; LANES]; B + longest],
@@ -70,28 +75,36 @@ impl<const B: usize> CyclicBanded<B> {
         self.rows
     }
 
+    /// Number of places in each segment.
+    #[must_use]
+    pub fn places(&self) -> usize {
+        self.factors.rows()
+    }
+
+    /// Row at the first place of each segment, before that of the segment where unit rows stand there.
+    #[must_use]
+    pub fn first_rows(&self) -> [isize; LANES] {
+        let first = |lane: usize| self.starts[lane] as isize - self.padding(lane) as isize;
+        std::array::from_fn(|lane| if lane < self.segments { first(lane) } else { 0 })
+    }
+
     /// Number of unit rows before the interior of a segment.
     fn padding(&self, segment: usize) -> usize {
-        self.factors.diagonal.len() - (self.starts[segment + 1] - self.starts[segment])
+        self.places() - (self.starts[segment + 1] - self.starts[segment])
     }
 
     /// Segment of a row, and its number in it.
     fn locate(&self, row: usize) -> (usize, usize) {
-        let segment = ((row + 1) * self.segments - 1) / self.rows;
+        let segment = ((row / self.block + 1) * self.segments - 1) / (self.rows / self.block);
         (segment, self.padding(segment) + row - self.starts[segment])
     }
 
     /// Sets every entry to zero, ready to be filled again.
     pub fn clear(&mut self) {
-        let unit_rows: [usize; LANES] =
-            std::array::from_fn(|lane| if lane < self.segments { self.padding(lane) } else { usize::MAX });
-        let factors = &mut self.factors;
-        for block in [&mut factors.lower, &mut factors.upper, &mut factors.right, &mut factors.bottom] {
-            block.fill([[0.0; LANES]; B]);
-        }
-        factors.corner = [[[0.0; LANES]; B]; B];
-        for (row, diagonal) in factors.diagonal.iter_mut().enumerate() {
-            *diagonal = unit_rows.map(|unit_rows| if row < unit_rows { 1.0 } else { 0.0 });
+        self.factors.clear();
+        for lane in 0..LANES {
+            let unit_rows = if lane < self.segments { self.padding(lane) } else { self.places() };
+            (0..unit_rows).for_each(|row| self.factors.from(row, 0)[0][lane] = 1.0);
         }
     }
 
@@ -101,11 +114,7 @@ impl<const B: usize> CyclicBanded<B> {
         let ((segment, r), (column_segment, c)) = (self.locate(row), self.locate(column));
         let factors = &mut self.factors;
         if segment == column_segment && c as isize - r as isize == offset {
-            match offset.signum() {
-                -1 => factors.lower[r][B + c - r][segment] = value,
-                0 => factors.diagonal[r][segment] = value,
-                _ => factors.upper[r][c - r - 1][segment] = value,
-            }
+            factors.from(r, offset)[0][segment] = value;
         } else if offset < 0 {
             factors.right[r][c - factors.interior][segment] = value;
         } else {
@@ -117,21 +126,42 @@ impl<const B: usize> CyclicBanded<B> {
     pub fn set_row(&mut self, row: usize, first: isize, values: &[f64]) {
         let (segment, r) = self.locate(row);
         let start = r as isize + first;
-        let longest = self.factors.diagonal.len();
-        if start < self.padding(segment) as isize || start as usize + values.len() > longest {
+        if start < self.padding(segment) as isize || start as usize + values.len() > self.places() {
             for (k, value) in values.iter().enumerate() {
                 self.set(row, first + k as isize, *value);
             }
             return;
         }
-        let (before, rest) = values.split_at(-first as usize);
-        let [diagonal, after @ ..] = rest else { return };
-        for (entry, value) in self.factors.lower[r][B - before.len()..].iter_mut().zip(before) {
+        for (entry, value) in self.factors.from(r, first).iter_mut().zip(values) {
             entry[segment] = *value;
         }
-        self.factors.diagonal[r][segment] = *diagonal;
-        for (entry, value) in self.factors.upper[r].iter_mut().zip(after) {
-            entry[segment] = *value;
+    }
+
+    /// Sets consecutive entries of the rows at `place` in all segments, the first in the column `first` after the row, none beyond
+    /// the band.
+    pub fn set_rows(&mut self, place: usize, first: isize, values: &[Lane]) {
+        let (start, longest, interior) = (place as isize + first, self.places(), self.factors.interior);
+        if self.segments == LANES && start >= self.block as isize && start as usize + values.len() <= longest
+        {
+            return self.factors.from(place, first)[..values.len()].copy_from_slice(values);
+        }
+        for lane in 0..self.segments {
+            let next = (lane + 1) % self.segments;
+            let [padding, next_padding] = [lane, next].map(|lane| self.padding(lane));
+            if place < padding {
+                continue;
+            }
+            for (k, value) in values.iter().enumerate() {
+                let column = start + k as isize;
+                let entry = if column < padding as isize {
+                    &mut self.factors.right[place][(column + B as isize) as usize - padding][lane]
+                } else if column as usize >= longest {
+                    &mut self.factors.bottom[column as usize - longest + next_padding][place - interior][next]
+                } else {
+                    &mut self.factors.from(place, first + k as isize)[0][lane]
+                };
+                *entry = value[lane];
+            }
         }
     }
 
@@ -159,14 +189,11 @@ impl<const B: usize> CyclicBanded<B> {
             let (here, before) = (lane * B, (lane + segments - 1) % segments * B);
             for i in 0..B {
                 let row = interior + i;
-                self.separators.add(here + i, here + i, factors.diagonal[row][lane]);
                 for j in 0..B {
-                    if j < i {
-                        let entry = &mut factors.lower[row][B + j - i][lane];
-                        self.separators.add(here + i, here + j, std::mem::take(entry));
-                    } else if j > i {
-                        self.separators.add(here + i, here + j, factors.upper[row][j - i - 1][lane]);
-                    }
+                    let inside = &mut factors.from(row, j as isize - i as isize)[0][lane];
+                    // Left of the diagonal are the columns of the interior alone.
+                    let entry = if j < i { std::mem::take(inside) } else { *inside };
+                    self.separators.add(here + i, here + j, entry);
                     self.separators.add(here + i, before + j, factors.right[row][j][lane]);
                     self.separators.add(before + j, here + i, factors.bottom[row][j][lane]);
                     self.separators.add(before + i, before + j, factors.corner[i][j][lane]);
@@ -175,14 +202,21 @@ impl<const B: usize> CyclicBanded<B> {
         }
     }
 
-    /// Overwrites the right-hand side `x` by the solution.
+    /// The values in `x` of the `part`-th rows of the blocks of a segment, and the place in `work` of the first.
+    fn part(&self, lane: usize, part: usize) -> (Range<usize>, usize) {
+        let first = part * (self.rows / self.block);
+        let [start, end] = [lane, lane + 1].map(|segment| first + self.starts[segment] / self.block);
+        (start..end, B + self.padding(lane) + part)
+    }
+
+    /// Overwrites the right-hand side `x` by the solution. In blocks, `x` holds the first rows of all blocks, then their second
+    /// rows, and so on.
     pub fn solve(&mut self, x: &mut [f64]) {
         assert_eq!(x.len(), self.rows, "length of the right-hand side");
         let (interior, segments) = (self.factors.interior, self.segments);
-        for lane in 0..segments {
-            let values = &x[self.starts[lane]..self.starts[lane + 1]];
-            let first = B + self.padding(lane);
-            for (row, value) in self.work[first..].iter_mut().zip(values) {
+        for (lane, part) in (0..segments).flat_map(|lane| (0..self.block).map(move |part| (lane, part))) {
+            let (values, first) = self.part(lane, part);
+            for (row, value) in self.work[first..].iter_mut().step_by(self.block).zip(&x[values]) {
                 row[lane] = *value;
             }
         }
@@ -208,10 +242,9 @@ impl<const B: usize> CyclicBanded<B> {
             }
         }
         substitute_backward(&self.factors, &previous, &mut self.work);
-        for lane in 0..segments {
-            let first = B + self.padding(lane);
-            let values = &mut x[self.starts[lane]..self.starts[lane + 1]];
-            for (value, row) in values.iter_mut().zip(&self.work[first..]) {
+        for (lane, part) in (0..segments).flat_map(|lane| (0..self.block).map(move |part| (lane, part))) {
+            let (values, first) = self.part(lane, part);
+            for (value, row) in x[values].iter_mut().zip(self.work[first..].iter().step_by(self.block)) {
                 *value = row[lane];
             }
         }

@@ -8,6 +8,7 @@ mod graded_laplacian;
 mod helmholtz;
 mod small_lu;
 
+pub use band_factors::{LANES, Lane};
 pub use cyclic_banded::{CyclicBanded, FactorisationError};
 pub use derivative::{Derivative, DerivativeFamily};
 pub use graded_helmholtz::{CurveHelmholtz, GradedHelmholtz};

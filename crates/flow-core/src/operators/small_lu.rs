@@ -1,13 +1,14 @@
 //! Dense LU factorisation with row pivoting of a small matrix, in place.
 
+use multiversion::multiversion;
+
 use super::cyclic_banded::FactorisationError;
-use crate::geometry::vectors::{add_scaled, dot};
 
 /// A square matrix and its factors.
 #[derive(Clone, Debug)]
 pub struct SmallLu {
     size: usize,
-    /// Row by row: L below the diagonal, U on and above it.
+    /// Column by column: L below the diagonal, U on and above it.
     entries: Vec<f64>,
     swaps: Vec<usize>,
 }
@@ -26,7 +27,7 @@ impl SmallLu {
 
     /// Adds to an entry.
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
-        self.entries[row * self.size + column] += value;
+        self.entries[column * self.size + row] += value;
     }
 
     /// Factorises the matrix that was filled in.
@@ -34,43 +35,58 @@ impl SmallLu {
     /// # Errors
     /// [`FactorisationError`] at the first pivot that is zero or not finite.
     pub fn factorise(&mut self) -> Result<(), FactorisationError> {
-        let size = self.size;
-        for c in 0..size {
-            let magnitude = |row: usize| self.entries[row * size + c].abs();
-            let largest =
-                (c..size).fold(c, |best, row| if magnitude(row) > magnitude(best) { row } else { best });
-            self.swaps[c] = largest;
-            if largest != c {
-                for k in 0..size {
-                    self.entries.swap(c * size + k, largest * size + k);
-                }
-            }
-            let pivot = self.entries[c * size + c];
-            if pivot == 0.0 || !pivot.is_finite() {
-                return Err(FactorisationError { row: c, pivot });
-            }
-            let (above, below) = self.entries.split_at_mut((c + 1) * size);
-            let pivot_row = &above[c * size + c + 1..];
-            for row in below.chunks_exact_mut(size) {
-                let factor = row[c] / pivot;
-                row[c] = factor;
-                add_scaled(&mut row[c + 1..], -factor, pivot_row);
-            }
-        }
-        Ok(())
+        let bad = factorise(&mut self.entries, &mut self.swaps);
+        bad.map_or(Ok(()), |(row, pivot)| Err(FactorisationError { row, pivot }))
     }
 
     /// Overwrites the right-hand side `x` by the solution.
     pub fn solve(&self, x: &mut [f64]) {
-        let size = self.size;
+        assert_eq!(x.len(), self.size, "length of the right-hand side");
         for (c, largest) in self.swaps.iter().enumerate() {
             x.swap(c, *largest);
         }
-        for (r, row) in self.entries.chunks_exact(size).enumerate() {
-            x[r] -= dot(&row[..r], &x[..r]);
+        substitute(&self.entries, x);
+    }
+}
+
+/// Number and value of the first bad pivot.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn factorise(entries: &mut [f64], swaps: &mut [usize]) -> Option<(usize, f64)> {
+    let size = swaps.len();
+    for c in 0..size {
+        let (known, after) = entries.split_at_mut((c + 1) * size);
+        let column = &mut known[c * size..];
+        let larger =
+            |best: usize, row: usize| if column[row].abs() > column[best].abs() { row } else { best };
+        let largest = (c..size).fold(c, larger);
+        swaps[c] = largest;
+        column.swap(c, largest);
+        let pivot = column[c];
+        if pivot == 0.0 || !pivot.is_finite() {
+            return Some((c, pivot));
         }
-        for (r, row) in self.entries.chunks_exact(size).enumerate().rev() {
-            x[r] = (x[r] - dot(&row[r + 1..], &x[r + 1..])) / row[r];
+        let (_, below) = column.split_at_mut(c + 1);
+        below.iter_mut().for_each(|entry| *entry /= pivot);
+        for other in after.chunks_exact_mut(size) {
+            other.swap(c, largest);
+            let factor = other[c];
+            other[c + 1..].iter_mut().zip(&*below).for_each(|(entry, l)| *entry -= factor * l);
         }
+        known[..c * size].chunks_exact_mut(size).for_each(|before| before.swap(c, largest));
+    }
+    None
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn substitute(entries: &[f64], x: &mut [f64]) {
+    let size = x.len();
+    for (c, column) in entries.chunks_exact(size).enumerate() {
+        let value = x[c];
+        x[c + 1..].iter_mut().zip(&column[c + 1..]).for_each(|(x, entry)| *x -= value * entry);
+    }
+    for (c, column) in entries.chunks_exact(size).enumerate().rev() {
+        x[c] /= column[c];
+        let value = x[c];
+        x[..c].iter_mut().zip(column).for_each(|(x, entry)| *x -= value * entry);
     }
 }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat};
-use flow_core::operators::CyclicBanded;
+use flow_core::operators::{CyclicBanded, Lane};
 use proptest::prelude::*;
 
 use crate::config;
@@ -79,6 +79,45 @@ fn smooth_modes_come_back_to_rounding() {
             let error = distance(&x, &exact);
             assert!(error <= bound, "{rows} rows, mode {mode}: {error:.1e} > {bound:.1e}");
         }
+    }
+}
+
+/// Rows set one by one and rows set in all segments at once, in blocks, are the same matrix; `solve` takes its unknowns block by
+/// block.
+#[test]
+fn rows_can_be_set_in_all_segments_at_once() {
+    const B: usize = 3;
+    for blocks in [5, 8, 24, 25, 63, 64, 130] {
+        let rows = 2 * blocks;
+        let (mut by_entries, _) = random::<B>(rows, 1.1, 7);
+        let entries = noise(7, rows * (2 * B + 1));
+        let mut by_segments = CyclicBanded::<B>::in_blocks(rows, 2);
+        let dominant = |row: usize| {
+            let mut entries = entries[row * (2 * B + 1)..(row + 1) * (2 * B + 1)].to_vec();
+            let others: f64 = entries.iter().map(|entry| entry.abs()).sum::<f64>() - entries[B].abs();
+            entries[B] = entries[B].signum() * 1.1 * others;
+            entries
+        };
+        for place in 0..by_segments.places() {
+            let of_segments = by_segments
+                .first_rows()
+                .map(|first| dominant((first + place as isize).rem_euclid(rows as isize) as usize));
+            let values: Vec<Lane> =
+                (0..=2 * B).map(|k| std::array::from_fn(|lane| of_segments[lane][k])).collect();
+            by_segments.set_rows(place, -(B as isize), &values);
+        }
+        by_entries.factorise().expect("a dominant diagonal");
+        by_segments.factorise().expect("a dominant diagonal");
+        let right = noise(11, rows);
+        let mut expected = right.clone();
+        by_entries.solve(&mut expected);
+        let by_blocks = |x: &[f64]| -> Vec<f64> {
+            [0, 1].iter().flat_map(|part| x[*part..].iter().step_by(2).copied()).collect()
+        };
+        let mut x = by_blocks(&right);
+        by_segments.solve(&mut x);
+        let error = distance(&x, &by_blocks(&expected)) / largest(&expected);
+        assert!(error <= 1e-13, "{blocks} blocks: {error:.1e}");
     }
 }
 

@@ -117,6 +117,13 @@ impl EnergySum {
         &self.jet
     }
 
+    /// δκ at the nodes under the motion of the last [`EnergySum::hessian_product`].
+    #[must_use]
+    pub fn curvature_motion(&self) -> &[f64] {
+        let motion = self.moving.as_ref().map_or(&self.motion[..], MovingMetricEnergy::motion);
+        &motion[self.layout.field(0)]
+    }
+
     /// Sum of the functions of the length.
     #[must_use]
     pub fn of_length(&self, length: f64) -> LengthJet {
@@ -132,13 +139,10 @@ impl EnergySum {
     }
 
     fn slope_product(&self, a: &[Complex64], b: &[Complex64]) -> f64 {
-        let full = weighted_dot(self.derivative.minus_laplacian(), a, b);
+        let laplacian = self.derivative.minus_laplacian();
+        let product = |m: usize| laplacian[m] * (a[m].re * b[m].re + a[m].im * b[m].im);
         // The mean has no slope; the sawtooth, present once, was counted like the others.
-        let once = self
-            .grid
-            .sawtooth_mode()
-            .map_or(0.0, |m| self.derivative.minus_laplacian()[m] * (a[m].re * b[m].re + a[m].im * b[m].im));
-        2.0 * full - once
+        2.0 * weighted_dot(laplacian, a, b) - self.grid.sawtooth_mode().map_or(0.0, product)
     }
 
     /// Energy, and its gradient into `gradient`.
@@ -162,11 +166,9 @@ impl EnergySum {
         let of_length = self.of_length(length);
         if let Some(moving) = &mut self.moving {
             let (terms, stiffness) = (&mut self.terms, &self.stiffness);
-            let mut energy = moving.evaluate(terms, &self.jet, stiffness, of_length, at, order, gradient);
-            if let Some(shape) = &mut self.shape {
-                energy += shape.add_gradient(&mut self.terms, at, order, gradient);
-            }
-            return energy;
+            let energy = moving.evaluate(terms, &self.jet, stiffness, of_length, at, order, gradient);
+            let shape = self.shape.as_mut();
+            return energy + shape.map_or(0.0, |shape| shape.add_gradient(terms, at, order, gradient));
         }
         let mean_density = at.mean(self.jet.value());
         let mut energy = length * mean_density + of_length.value;
@@ -224,10 +226,8 @@ impl EnergySum {
     /// [`EnergySum::linearise`], whose fields are `at`.
     pub fn hessian_product(&mut self, at: &CurveFields, v: &[f64], out: &mut IntrinsicGradient) {
         let (fields, modes, length) = (self.layout.fields(), self.grid.modes(), at.length());
-        let layout = SpectralLayout::new(self.layout);
+        let (layout, of_length) = (SpectralLayout::new(self.layout), self.of_length(length));
         if let Some(moving) = &mut self.moving {
-            let of_length = self.terms.iter().map(|term| term.of_length(length));
-            let of_length = of_length.fold(LengthJet::default(), LengthJet::plus);
             moving.hessian_product(&self.jet, of_length, at, layout.spectra(v), out);
             if let Some(shape) = &mut self.shape {
                 shape.add_hessian_product(&mut self.terms, v, out);
@@ -246,7 +246,7 @@ impl EnergySum {
                 self.grid.transform(motion, spectrum);
             }
         }
-        let mut by_length = self.of_length(length).second * length_motion;
+        let mut by_length = of_length.second * length_motion;
         for field in 0..fields {
             multiply_into(&mut self.product, self.jet.second(field, 0), &self.motion[self.layout.field(0)]);
             for other in 1..fields {

@@ -8,6 +8,11 @@ use crate::geometry::vectors::{add_product, add_scaled, apply_symbol, multiply, 
 use crate::geometry::{Complex64, Grading};
 
 impl MovingMetricEnergy {
+    /// Motion of the pointwise fields under the motion of the last [`MovingMetricEnergy::hessian_product`], one after the other.
+    pub fn motion(&self) -> &[f64] {
+        &self.motion
+    }
+
     /// Second derivative times the motion of the fields Φ = K, m and the metric, given by their spectra, at the fields `at` of
     /// the linearisation, where the nodal density has the second derivatives in `jet`.
     pub fn hessian_product(

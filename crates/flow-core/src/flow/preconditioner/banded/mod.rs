@@ -12,8 +12,9 @@ use std::fmt::Debug;
 use std::sync::Arc;
 
 pub use coefficients::Coefficients;
+use rows::Stencils;
 
-use super::compact_laplacian::{DIFFERENCE, mass_symbol, symbol_of_mass};
+use super::compact_laplacian::{mass_symbol, symbol_of_mass};
 use super::fourier::{diagonal_symbol, mobility_symbol};
 use super::local_spacing::LocalSpacing;
 use super::material::MaterialPart;
@@ -73,9 +74,6 @@ pub fn build(flow: &GradientFlow) -> Option<Box<dyn Banded>> {
     }
 }
 
-/// Coefficients of all `F` fields at one node.
-type Row<const F: usize> = [f64; F];
-
 #[derive(Debug)]
 struct LocalPart<const F: usize, const B: usize> {
     fine_modes: usize,
@@ -91,9 +89,8 @@ struct LocalPart<const F: usize, const B: usize> {
     before: Vec<f64>,
     after: Vec<f64>,
     coefficients: Coefficients<F>,
-    gradient_rows: Vec<[[Row<F>; 3]; F]>,
-    velocity_rows: Vec<[Row<F>; 5]>,
-    interleaved: Vec<f64>,
+    stencils: Stencils<F>,
+    /// All fields at the nodes.
     values: Vec<f64>,
     spectrum: Vec<Complex64>,
 }
@@ -103,19 +100,18 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         let coarse = nodes.clamp(8, if grading.is_some() { MOST_GRADED_NODES } else { MOST_NODES });
         let grid = PeriodicGrid::new(coarse);
         let fine_modes = nodes / 2 + 1;
+        let matrix = CyclicBanded::in_blocks(coarse * F, F);
         Self {
             fine_modes,
             keeps_mean: [true; F],
             local: grading.map(|grading| LocalSpacing::new(grading, coarse)),
-            matrix: CyclicBanded::new(coarse * F),
+            stencils: Stencils::new(matrix.places() / F),
+            matrix,
             mass: (0..grid.modes()).map(|mode| mass_symbol(mode, coarse)).collect(),
             before: vec![1.0; F * grid.modes()],
             after: vec![1.0; F * grid.modes()],
             coefficients: Coefficients::new(nodes, &grid),
-            gradient_rows: vec![[[[0.0; F]; 3]; F]; coarse],
-            velocity_rows: vec![[[0.0; F]; 5]; coarse],
-            interleaved: vec![0.0; coarse * F],
-            values: vec![0.0; coarse],
+            values: vec![0.0; coarse * F],
             spectrum: vec![Complex64::default(); grid.modes()],
             grid,
         }
@@ -155,11 +151,6 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
             }
         }
     }
-
-    /// Weights of `Δ_s` at node `i`, before the division by A.
-    fn difference(&self, i: usize, scale: f64) -> [f64; 3] {
-        self.local.as_ref().map_or(DIFFERENCE, |local| local.differences[i]).map(|weight| scale * weight)
-    }
 }
 
 impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
@@ -176,38 +167,30 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
         self.coefficients.set(flow, &mut self.grid);
         self.set_correction(flow, gamma);
         let scale = (self.grid.nodes() as f64 / flow.frozen().length()).powi(2);
-        self.set_stencils(flow.energy_terms().implicit_stiffness(), scale);
         self.fill(flow, gamma, scale);
         self.matrix.factorise()
     }
 
     fn apply(&mut self, spectra: &mut [Complex64]) {
-        let (modes, low) = (self.grid.modes(), self.modes());
-        for field in 0..F {
+        let (nodes, modes, low) = (self.grid.nodes(), self.grid.modes(), self.modes());
+        for (field, values) in self.values.chunks_exact_mut(nodes).enumerate() {
             let factors = &self.before[field * modes..][..low];
             let spectrum = &spectra[field * self.fine_modes..(field + 1) * self.fine_modes];
             self.spectrum.fill(Complex64::default());
             for ((target, value), factor) in self.spectrum.iter_mut().zip(spectrum).zip(factors) {
                 *target = value * factor;
             }
-            self.grid.synthesise(&self.spectrum, &mut self.values);
+            self.grid.synthesise(&self.spectrum, values);
             if let Some(local) = &self.local {
-                multiply(&mut self.values, &local.inverse);
-            }
-            for (target, value) in self.interleaved.iter_mut().skip(field).step_by(F).zip(&self.values) {
-                *target = *value;
+                multiply(values, &local.inverse);
             }
         }
-        self.matrix.solve(&mut self.interleaved);
-        for field in 0..F {
-            for (value, target) in self.values.iter_mut().zip(self.interleaved.iter().skip(field).step_by(F))
-            {
-                *value = *target;
-            }
+        self.matrix.solve(&mut self.values);
+        for (field, values) in self.values.chunks_exact_mut(nodes).enumerate() {
             if let Some(local) = &self.local {
-                multiply(&mut self.values, &local.weight);
+                multiply(values, &local.weight);
             }
-            self.grid.transform(&self.values, &mut self.spectrum);
+            self.grid.transform(values, &mut self.spectrum);
             let factors = &self.after[field * modes..][..low];
             let spectrum = &mut spectra[field * self.fine_modes..(field + 1) * self.fine_modes];
             // Where J makes no mean, its local part does: the mean stays as it was.

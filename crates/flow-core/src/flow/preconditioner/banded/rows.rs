@@ -1,96 +1,206 @@
-//! The rows of the band.
+//! The rows of the band, those at one place of all segments at once.
+
+#![allow(clippy::inline_always)] // these bodies must be compiled inside each version of the loops
+
+use multiversion::multiversion;
 
 use super::super::carries;
-use super::super::compact_laplacian::{MASS, convolve, neighbours};
+use super::super::compact_laplacian::{DIFFERENCE, MASS, convolve};
 use super::LocalPart;
 use crate::flow::gradient_flow::GradientFlow;
+use crate::operators::{CyclicBanded, LANES, Lane};
 
-impl<const F: usize, const B: usize> LocalPart<F, B> {
-    /// Stencils of the gradient p = Hess·Aw over the nodes i−1, i, i+1, and of the velocity
-    /// AV = Bp₀ + A κΣφp over i−2 … i+2.
-    pub(super) fn set_stencils(&mut self, stiffness: &[f64], scale: f64) {
-        let nodes = self.grid.nodes();
-        for i in 0..nodes {
-            let difference = self.difference(i, scale);
-            for f in 0..F {
-                for k in 0..3 {
-                    let mut entries = [0.0; F];
-                    for g in 0..F {
-                        entries[g] = MASS[k] * self.coefficients.second(i, f, g);
-                    }
-                    entries[f] -= difference[k] * stiffness[f];
-                    self.gradient_rows[i][f][k] = entries;
-                }
-            }
-        }
-        for i in 0..nodes {
-            let mut stencil = [[0.0; F]; 5];
-            let difference = self.difference(i, scale);
-            for (shift, node) in neighbours(i, nodes).into_iter().enumerate() {
-                let kappa = MASS[shift] * self.coefficients.field(node, 0);
-                for f in 0..F {
-                    let bend = if f == 0 { difference[shift] } else { 0.0 };
-                    let factor = bend + kappa * self.coefficients.field(node, f);
-                    for k in 0..3 {
-                        for g in 0..F {
-                            stencil[shift + k][g] += factor * self.gradient_rows[node][f][k][g];
-                        }
-                    }
-                }
-            }
-            self.velocity_rows[i] = stencil;
+/// Nodes beyond each end of the segments that their rows see.
+const MARGIN: usize = 2;
+
+/// What the rows take of one node of each segment.
+#[derive(Clone, Copy, Debug)]
+pub struct Node<const F: usize> {
+    fields: [Lane; F],
+    second: [[Lane; F]; F],
+    /// Weights of `Δ_s` before the division by A.
+    difference: [Lane; 3],
+    /// Those of the mobility of each density, by its field.
+    mobility: [[Lane; 3]; F],
+}
+
+/// Coefficients of all `F` fields.
+type Row<const F: usize> = [Lane; F];
+
+/// Stencils of the gradient p = Hess·Aw over the nodes i−1, i, i+1.
+type Gradient<const F: usize> = [[Row<F>; 3]; F];
+
+/// Stencil of the velocity AV = Bp₀ + A κΣφp over i−2 … i+2.
+type Velocity<const F: usize> = [Row<F>; 5];
+
+/// Scratch of the assembly.
+#[derive(Debug)]
+pub struct Stencils<const F: usize> {
+    nodes: Vec<Node<F>>,
+    gradients: Vec<Gradient<F>>,
+    velocities: Vec<Velocity<F>>,
+}
+
+impl<const F: usize> Stencils<F> {
+    /// For the rows of `nodes` nodes in each segment.
+    pub fn new(nodes: usize) -> Self {
+        let zero = [0.0; LANES];
+        let node = Node {
+            fields: [zero; F],
+            second: [[zero; F]; F],
+            difference: [zero; 3],
+            mobility: [[zero; 3]; F],
+        };
+        Self {
+            nodes: vec![node; nodes + 2 * MARGIN],
+            gradients: vec![[[[zero; F]; 3]; F]; nodes + 2 * MARGIN],
+            velocities: vec![[[zero; F]; 5]; nodes + 2],
         }
     }
+}
 
+impl<const F: usize, const B: usize> LocalPart<F, B> {
     /// Fills I − γJ for φ = Aw: A²·(κ̇ = −ΔV − κ²V) and A·(ρ̇ = −κρV − 𝓖p).
-    pub(super) fn fill(&mut self, flow: &GradientFlow, gamma: f64, scale: f64) {
-        let (densities, length) = (flow.density_mobilities(), flow.frozen().length());
-        let (carries, nodes) = (carries(flow), self.grid.nodes());
+    pub(super) fn fill(&mut self, flow: &mut GradientFlow, gamma: f64, scale: f64) {
+        self.take_nodes(flow, scale);
         self.matrix.clear();
-        let (square, cube) = (convolve::<3, 5>(&MASS), convolve::<5, 7>(&convolve::<3, 5>(&MASS)));
-        for i in 0..nodes {
-            for f in 0..F {
-                let mut row = [[0.0; F]; 7];
-                if f == 0 {
-                    for k in 0..7 {
-                        row[k][f] = cube[k];
+        let Stencils { nodes, gradients, velocities } = &mut self.stencils;
+        set_gradients(nodes, flow.energy_terms().implicit_stiffness(), gradients);
+        set_velocities(nodes, gradients, velocities);
+        set_rows(&*nodes, (&*gradients, &*velocities), (gamma, carries(flow)), &mut self.matrix);
+    }
+
+    fn take_nodes(&mut self, flow: &GradientFlow, scale: f64) {
+        let (nodes, length) = (self.grid.nodes(), flow.frozen().length());
+        let firsts = self.matrix.first_rows().map(|row| row / F as isize - MARGIN as isize);
+        for (place, node) in self.stencils.nodes.iter_mut().enumerate() {
+            for lane in 0..LANES {
+                let i = (firsts[lane] + place as isize).rem_euclid(nodes as isize) as usize;
+                for f in 0..F {
+                    node.fields[f][lane] = self.coefficients.field(i, f);
+                    for g in 0..F {
+                        node.second[f][g][lane] = self.coefficients.second(i, f, g);
                     }
-                    let difference = self.difference(i, scale);
-                    for (shift, node) in neighbours(i, nodes).into_iter().enumerate() {
-                        let kappa = self.coefficients.field(node, 0);
-                        let factor = gamma * (difference[shift] + MASS[shift] * kappa * kappa);
-                        for k in 0..5 {
-                            for g in 0..F {
-                                row[shift + k][g] += factor * self.velocity_rows[node][k][g];
-                            }
-                        }
-                    }
-                } else {
-                    for k in 0..5 {
-                        row[1 + k][f] = square[k];
-                    }
-                    let carried = if carries { 0.0 } else { self.coefficients.field(i, f) };
-                    let damping = gamma * self.coefficients.field(i, 0) * carried;
-                    for k in 0..5 {
-                        for g in 0..F {
-                            row[1 + k][g] += damping * self.velocity_rows[i][k][g];
-                        }
-                    }
-                    let density = &densities[f - 1];
+                }
+                let difference = self.local.as_ref().map_or(DIFFERENCE, |local| local.differences[i]);
+                for (target, weight) in node.difference.iter_mut().zip(difference) {
+                    target[lane] = scale * weight;
+                }
+                for (mobility, density) in node.mobility[1..].iter_mut().zip(flow.density_mobilities()) {
                     let points = density.three_points(i, nodes, length);
                     let weights =
                         if density.order() == 0 { MASS.map(|mass| mass * points[1]) } else { points };
-                    for (shift, node) in neighbours(i, nodes).into_iter().enumerate() {
-                        let factor = gamma * weights[shift];
-                        for k in 0..3 {
-                            for g in 0..F {
-                                row[1 + shift + k][g] += factor * self.gradient_rows[node][f][k][g];
-                            }
+                    for (target, weight) in mobility.iter_mut().zip(weights) {
+                        target[lane] = weight;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// a += b c, lane by lane.
+#[inline(always)]
+fn add_product(a: &mut Lane, b: &Lane, c: &Lane) {
+    for lane in 0..LANES {
+        a[lane] += b[lane] * c[lane];
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn set_gradients<const F: usize>(nodes: &[Node<F>], stiffness: &[f64], gradients: &mut [Gradient<F>]) {
+    for (gradient, node) in gradients.iter_mut().zip(nodes) {
+        for f in 0..F {
+            for k in 0..3 {
+                for g in 0..F {
+                    gradient[f][k][g] = node.second[f][g].map(|second| MASS[k] * second);
+                }
+                for lane in 0..LANES {
+                    gradient[f][k][f][lane] -= node.difference[k][lane] * stiffness[f];
+                }
+            }
+        }
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn set_velocities<const F: usize>(
+    nodes: &[Node<F>],
+    gradients: &[Gradient<F>],
+    velocities: &mut [Velocity<F>],
+) {
+    for (place, velocity) in velocities.iter_mut().enumerate() {
+        *velocity = [[[0.0; LANES]; F]; 5];
+        let difference = &nodes[place + 1].difference;
+        for shift in 0..3 {
+            let (node, gradient) = (&nodes[place + shift], &gradients[place + shift]);
+            let kappa = node.fields[0].map(|kappa| MASS[shift] * kappa);
+            for f in 0..F {
+                let mut factor = if f == 0 { difference[shift] } else { [0.0; LANES] };
+                add_product(&mut factor, &kappa, &node.fields[f]);
+                for k in 0..3 {
+                    for g in 0..F {
+                        add_product(&mut velocity[shift + k][g], &factor, &gradient[f][k][g]);
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn set_rows<const F: usize, const B: usize>(
+    nodes: &[Node<F>],
+    (gradients, velocities): (&[Gradient<F>], &[Velocity<F>]),
+    (gamma, carries): (f64, bool),
+    matrix: &mut CyclicBanded<B>,
+) {
+    let square = convolve::<3, 5>(&MASS);
+    let cube = convolve::<5, 7>(&square);
+    for i in 0..nodes.len() - 2 * MARGIN {
+        // Those of the nodes i−1, i, i+1.
+        let (nodes, gradients, velocities) = (&nodes[i + 1..], &gradients[i + 1..], &velocities[i..]);
+        let own = &nodes[1];
+        for f in 0..F {
+            let mut row = [[[0.0; LANES]; F]; 7];
+            if f == 0 {
+                for k in 0..7 {
+                    row[k][f] = [cube[k]; LANES];
+                }
+                for shift in 0..3 {
+                    let (difference, kappa) = (&own.difference[shift], &nodes[shift].fields[0]);
+                    let factor = std::array::from_fn(|lane| {
+                        gamma * (difference[lane] + MASS[shift] * kappa[lane] * kappa[lane])
+                    });
+                    for k in 0..5 {
+                        for g in 0..F {
+                            add_product(&mut row[shift + k][g], &factor, &velocities[shift][k][g]);
                         }
                     }
                 }
-                self.matrix.set_row(i * F + f, -((3 * F + f) as isize), row.as_flattened());
+            } else {
+                for k in 0..5 {
+                    row[1 + k][f] = [square[k]; LANES];
+                }
+                if !carries {
+                    let damping =
+                        std::array::from_fn(|lane| gamma * own.fields[0][lane] * own.fields[f][lane]);
+                    for k in 0..5 {
+                        for g in 0..F {
+                            add_product(&mut row[1 + k][g], &damping, &velocities[1][k][g]);
+                        }
+                    }
+                }
+                for shift in 0..3 {
+                    let factor = own.mobility[f][shift].map(|weight| gamma * weight);
+                    for k in 0..3 {
+                        for g in 0..F {
+                            add_product(&mut row[1 + shift + k][g], &factor, &gradients[shift][f][k][g]);
+                        }
+                    }
+                }
             }
+            matrix.set_rows(i * F + f, -((3 * F + f) as isize), row.as_flattened());
         }
     }
 }

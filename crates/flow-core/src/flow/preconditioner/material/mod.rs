@@ -35,7 +35,7 @@ pub struct MaterialPart<const F: usize, const B: usize> {
     slope_rows: Vec<[[Row<F>; 4]; F]>,
     gradient_rows: Vec<[[Row<F>; 5]; F]>,
     stretch_rows: Vec<[Row<F>; 5]>,
-    interleaved: Vec<f64>,
+    /// All unknowns at the nodes.
     values: Vec<f64>,
     spectrum: Vec<Complex64>,
 }
@@ -50,15 +50,14 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
             keeps_mean: [false; F],
             local: LocalSpacing::new(&Grading::uniform(nodes), coarse),
             length: 1.0,
-            matrix: CyclicBanded::new(coarse * F),
+            matrix: CyclicBanded::in_blocks(coarse * F, F),
             roots: vec![1.0; F * grid.modes()],
             coefficients: Coefficients::new(nodes, &grid),
             motion_rows: vec![[[[0.0; F]; 3]; F]; coarse],
             slope_rows: vec![[[[0.0; F]; 4]; F]; coarse],
             gradient_rows: vec![[[[0.0; F]; 5]; F]; coarse],
             stretch_rows: vec![[[0.0; F]; 5]; coarse],
-            interleaved: vec![0.0; coarse * F],
-            values: vec![0.0; coarse],
+            values: vec![0.0; coarse * F],
             spectrum: vec![Complex64::default(); grid.modes()],
             grid,
         }
@@ -110,34 +109,27 @@ impl<const F: usize, const B: usize> Banded for MaterialPart<F, B> {
     }
 
     fn apply(&mut self, spectra: &mut [Complex64]) {
-        let (modes, low) = (self.grid.modes(), self.modes());
-        for field in 0..F {
+        let (nodes, modes, low) = (self.grid.nodes(), self.grid.modes(), self.modes());
+        for (field, values) in self.values.chunks_exact_mut(nodes).enumerate() {
             let roots = &self.roots[field * modes..][..low];
             let spectrum = &spectra[field * self.fine_modes..(field + 1) * self.fine_modes];
             self.spectrum.fill(Complex64::default());
             for ((target, value), root) in self.spectrum.iter_mut().zip(spectrum).zip(roots) {
                 *target = value * root;
             }
-            self.grid.synthesise(&self.spectrum, &mut self.values);
+            self.grid.synthesise(&self.spectrum, values);
             if field > 0 {
-                multiply(&mut self.values, &self.local.inverse);
-                scale(&mut self.values, 1.0 / self.length);
-            }
-            for (target, value) in self.interleaved.iter_mut().skip(field).step_by(F).zip(&self.values) {
-                *target = *value;
+                multiply(values, &self.local.inverse);
+                scale(values, 1.0 / self.length);
             }
         }
-        self.matrix.solve(&mut self.interleaved);
-        for field in 0..F {
-            for (value, target) in self.values.iter_mut().zip(self.interleaved.iter().skip(field).step_by(F))
-            {
-                *value = *target;
-            }
+        self.matrix.solve(&mut self.values);
+        for (field, values) in self.values.chunks_exact_mut(nodes).enumerate() {
             if field > 0 {
-                multiply(&mut self.values, &self.local.weight);
-                scale(&mut self.values, self.length);
+                multiply(values, &self.local.weight);
+                scale(values, self.length);
             }
-            self.grid.transform(&self.values, &mut self.spectrum);
+            self.grid.transform(values, &mut self.spectrum);
             let roots = &self.roots[field * modes..][..low];
             let spectrum = &mut spectra[field * self.fine_modes..(field + 1) * self.fine_modes];
             // Where J makes no mean, its local part does: the mean stays as it was.
