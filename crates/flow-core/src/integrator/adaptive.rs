@@ -47,6 +47,8 @@ pub struct Adaptive<S> {
     counters: Counters,
 }
 
+/// Changes by more than this part of the energy are not its rounding.
+const PLAIN: f64 = 1e-4;
 /// Part of the energy by which rounding may raise it in one step.
 const ENERGY_ROUNDING: f64 = 1e-13;
 /// A dissipation that would lose this many times the energy that the step lost is an error of the solve.
@@ -220,12 +222,17 @@ impl<S: Stepper> Adaptive<S> {
             }
             Finish::Good { energy, dissipation, mut integral_rates } => {
                 integral_rates[POSITIVE] = self.stepper.dissipation(problem, dissipation);
-                let rounding = self.rounding(problem, energy);
                 let integrals = self.stepper.integrals_ahead(integral_rates);
-                // Times, and so the size of the step, and the integral are known to a unit in the last place.
-                let dissipated = integral_rates[POSITIVE] * time.abs() + integrals.values()[POSITIVE];
-                let rounding_of_balance = rounding + f64::EPSILON * dissipated.abs();
-                let imbalance = self.imbalance(energy, rounding_of_balance, integrals.values());
+                let mut imbalance = self.imbalance(energy, 0.0, integrals.values());
+                let mut rounding = 0.0;
+                // It takes as long as a transform to know, and mostly does not matter.
+                if !(imbalance < BALANCED && (energy - self.energy).abs() > PLAIN * energy.abs()) {
+                    rounding = self.rounding(problem, energy);
+                    // Times, and so the size of the step, and the integral are known to a unit in the last place.
+                    let dissipated = integral_rates[POSITIVE] * time.abs() + integrals.values()[POSITIVE];
+                    let of_balance = rounding + f64::EPSILON * dissipated.abs();
+                    imbalance = self.imbalance(energy, of_balance, integrals.values());
+                }
                 if imbalance.is_nan() || !integral_rates.iter().all(|rate| rate.is_finite()) {
                     return Err(self.refuse(Rejection::NotFinite, LEAST_FACTOR));
                 }
