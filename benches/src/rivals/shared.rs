@@ -48,8 +48,8 @@ impl Problem for Shared {
         self.0.borrow().unweigh(r);
     }
 
-    fn settle(&self, gamma: f64, r: &mut [f64]) -> bool {
-        self.0.borrow().settle(gamma, r)
+    fn settle(&mut self, gamma: f64, r: &mut [f64]) -> bool {
+        self.0.borrow_mut().settle(gamma, r)
     }
 
     fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {

@@ -144,7 +144,7 @@ impl Problem for AuxiliaryFields {
         self.problem.unweigh(r);
     }
 
-    fn settle(&self, gamma: f64, r: &mut [f64]) -> bool {
+    fn settle(&mut self, gamma: f64, r: &mut [f64]) -> bool {
         self.problem.settle(gamma, r)
     }
 

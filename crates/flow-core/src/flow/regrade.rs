@@ -45,7 +45,7 @@ pub fn regrade(
 }
 
 /// The way from the nodes of one flow to those of another, for any number of states.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Regrading {
     points: ScatteredPoints,
     grid: PeriodicGrid,

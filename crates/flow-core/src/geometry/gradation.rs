@@ -1,7 +1,10 @@
 //! Gradings that follow the scales of a solution. See `THEORY.md`, eq. (D11).
 
+use multiversion::multiversion;
+
 use super::grading::Grading;
 use super::grid::{Complex64, PeriodicGrid};
+use crate::expression::vector_math::exp;
 
 /// The spacing grows at most at this rate with the distance: a layer of width d at distance x asks for max(d, |x|). A function
 /// with a pole at distance d from the real line is then resolved by a number of nodes that grows as ln(1/d).
@@ -74,14 +77,19 @@ fn low_pass(values: &[f64], modes: f64) -> Vec<f64> {
     let mut spectrum = vec![Complex64::default(); grid.modes()];
     let mut smooth: Vec<f64> = values.iter().map(|value| value.ln()).collect();
     grid.transform(&smooth, &mut spectrum);
-    for (mode, value) in spectrum.iter_mut().enumerate() {
-        *value *= (-(mode as f64 / modes).powi(2)).exp();
-    }
+    let mut filter: Vec<f64> = (0..grid.modes()).map(|mode| -(mode as f64 / modes).powi(2)).collect();
+    exponentiate(&mut filter);
+    spectrum.iter_mut().zip(&filter).for_each(|(value, factor)| *value *= *factor);
     grid.synthesise(&spectrum, &mut smooth);
-    for value in &mut smooth {
-        *value = value.exp();
-    }
+    exponentiate(&mut smooth);
     smooth
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn exponentiate(values: &mut [f64]) {
+    for value in values {
+        *value = exp(*value);
+    }
 }
 
 #[cfg(test)]

@@ -232,6 +232,10 @@ impl Grading {
     /// node before and halfway to the one after: the coefficients of `Δ_s` by second differences.
     #[must_use]
     pub fn spacing(&self, node: usize, nodes: usize) -> [f64; 2] {
+        if nodes == self.nodes() {
+            let midpoints = [(node + nodes - 1) % nodes, node];
+            return midpoints.map(|i| self.inverse[node] * self.inverse_at_midpoints[i]);
+        }
         let at = |shift: f64| self.at((node as f64 + shift) / nodes as f64);
         [-0.5, 0.5].map(|shift| 1.0 / (at(0.0) * at(shift)))
     }

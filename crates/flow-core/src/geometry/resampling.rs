@@ -2,8 +2,11 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use multiversion::multiversion;
+
 use super::grading::Grading;
 use super::grid::{Complex64, PeriodicGrid};
+use crate::expression::vector_math::exp;
 
 /// The coefficients on a grid of `to` nodes of the polynomial with the coefficients `spectrum` on `nodes` nodes. Modes that the
 /// new grid does not hold are lost.
@@ -78,17 +81,14 @@ impl ScatteredPoints {
     fn move_to(&mut self, places: &[f64]) {
         let nodes = self.fine.nodes();
         let count = nodes as f64;
-        let weights = |s: &f64| {
+        self.points.resize(places.len(), (0, [0.0; WIDTH]));
+        for ((start, weights), s) in self.points.iter_mut().zip(places) {
             let place = s.rem_euclid(1.0) * count;
             let first = (place - 0.5 * WIDTH as f64).ceil();
-            let weights = std::array::from_fn(|i| {
-                let z = (first + i as f64 - place) / (0.5 * WIDTH as f64);
-                (SHAPE * ((1.0 - z * z).max(0.0).sqrt() - 1.0)).exp()
-            });
-            (first.rem_euclid(count) as usize % nodes, weights)
-        };
-        self.points.clear();
-        self.points.extend(places.iter().map(weights));
+            *start = first.rem_euclid(count) as usize % nodes;
+            weights[0] = first - place;
+        }
+        set_weights(&mut self.points);
     }
 
     /// Values at the points of the polynomial with the coefficients `spectrum`.
@@ -99,11 +99,30 @@ impl ScatteredPoints {
         }
         self.fine.synthesise(&self.spectrum, &mut self.values);
         let count = self.values.len();
-        let sum = |(first, weights): &(usize, [f64; WIDTH])| {
-            let at = |i: usize| self.values[if first + i < count { first + i } else { first + i - count }];
-            weights.iter().enumerate().map(|(i, weight)| weight * at(i)).sum()
+        let sum = |(first, weights): &(usize, [f64; WIDTH])| -> f64 {
+            let within = WIDTH.min(count - first);
+            let (before, after) = weights.split_at(within);
+            let product = |(weight, value): (&f64, &f64)| weight * value;
+            let up_to_the_end: f64 = before.iter().zip(&self.values[*first..]).map(product).sum();
+            up_to_the_end + after.iter().zip(&self.values).map(product).sum::<f64>()
         };
         self.points.iter().map(sum).collect()
+    }
+}
+
+/// Weights of the points, the first of which is given the distance of its fine node from the point.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn set_weights(points: &mut [(usize, [f64; WIDTH])]) {
+    const WHOLE_REGISTERS: usize = WIDTH.next_multiple_of(8);
+    for (_, weights) in points {
+        let mut kernel = [0.0; WHOLE_REGISTERS];
+        for (i, value) in kernel.iter_mut().enumerate() {
+            let z = (weights[0] + i as f64) * (2.0 / WIDTH as f64);
+            let square = 1.0 - z * z;
+            let height = if square > 0.0 { square } else { 0.0 };
+            *value = exp(SHAPE * (height.sqrt() - 1.0));
+        }
+        weights.copy_from_slice(&kernel[..WIDTH]);
     }
 }
 
@@ -124,11 +143,23 @@ fn deconvolution(nodes: usize, fine: usize) -> Vec<f64> {
         if mode.is_multiple_of(EXACT) {
             waves = points.map(|point| Complex64::cis(mode as f64 * point));
         }
-        let sum: f64 = waves.iter().zip(&shares).map(|(wave, share)| wave.re * share).sum();
-        waves.iter_mut().zip(&turns).for_each(|(wave, turn)| *wave *= turn);
-        1.0 / sum
+        1.0 / turn(&mut waves, &turns, &shares)
     };
     (0..=nodes / 2).map(coefficient).collect()
+}
+
+/// Σ share Re wave; each wave goes on by its turn.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn turn(
+    waves: &mut [Complex64; QUADRATURE],
+    turns: &[Complex64; QUADRATURE],
+    shares: &[f64; QUADRATURE],
+) -> f64 {
+    let sum = waves.iter().zip(shares).map(|(wave, share)| wave.re * share).sum();
+    for (wave, turn) in waves.iter_mut().zip(turns) {
+        *wave *= turn;
+    }
+    sum
 }
 
 /// Passes of Newton's method; the start is within the fourth power of a node distance.

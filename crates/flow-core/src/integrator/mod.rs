@@ -59,7 +59,7 @@ pub trait Problem {
     fn unweigh(&self, r: &mut [f64]);
     /// Overwrites the residual `r` of a stage y = a + γf(y) by a change of y that makes good the stiff part of what J, which is
     /// that of a guess, has missed; false if there is none.
-    fn settle(&self, _gamma: f64, _r: &mut [f64]) -> bool {
+    fn settle(&mut self, _gamma: f64, _r: &mut [f64]) -> bool {
         false
     }
     /// Tells how many Krylov iterations a solve took; true if the preconditioner changed its kind and

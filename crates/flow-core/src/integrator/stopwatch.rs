@@ -209,7 +209,7 @@ impl<P: Problem> Problem for Clocked<'_, P> {
         self.problem.unweigh(r);
     }
 
-    fn settle(&self, gamma: f64, r: &mut [f64]) -> bool {
+    fn settle(&mut self, gamma: f64, r: &mut [f64]) -> bool {
         self.problem.settle(gamma, r)
     }
 

@@ -72,8 +72,13 @@ impl DerivativeFamily {
     #[must_use]
     pub fn symbol_error(self, angle: f64) -> f64 {
         let Some(stencil) = self.stencil() else { return 0.0 };
-        let terms = stencil.difference.iter().enumerate();
-        let difference: f64 = terms.map(|(j, c)| 2.0 * c * ((j as f64 + 0.5) * angle).sin()).sum();
+        // sin(j + ½)θ from the two before it.
+        let sine = (0.5 * angle).sin();
+        let (mut before, mut wave, mut difference) = (-sine, sine, 0.0);
+        for c in stencil.difference {
+            difference += 2.0 * c * wave;
+            (before, wave) = (wave, (2.0 - 4.0 * sine * sine) * wave - before);
+        }
         if angle == 0.0 { 0.0 } else { 1.0 - (difference / angle).powi(2) }
     }
 

@@ -30,22 +30,23 @@ pub fn least_resolved(layout: Layout, state: &[f64], nodes: usize, family: Deriv
     let spectral = SpectralLayout::new(layout);
     let length = state[spectral.length_index()];
     let first_empty = 0.5 * (1.0 - EMPTY) * nodes as f64;
+    // Only differences miss something of the modes below.
+    let first = if family == DerivativeFamily::Fourier { first_empty.ceil() as usize } else { 0 };
+    let mut missed = vec![0.0; layout.state_fields()];
+    for mode in first..spectral.modes() {
+        let angle = TAU * mode as f64 / nodes as f64;
+        let error = if mode as f64 >= first_empty { 1.0 } else { family.symbol_error(angle) };
+        for (field, missed) in missed.iter_mut().enumerate() {
+            let [re, im] = [0, 1].map(|part| state[spectral.field(field).start + 2 * mode + part]);
+            *missed += error * error * (re * re + im * im);
+        }
+    }
     let mut worst = (0, 0.0);
-    for field in 0..layout.state_fields() {
+    for (field, missed) in missed.into_iter().enumerate() {
         let spectrum = &state[spectral.field(field)];
         // A turn of the tangent per length, a thousandth of full coverage, as in the norm of the errors.
         let floor = if field == 0 { 1.0 } else { (1e-3 * length).powi(2) };
-        let all = dot(spectrum, spectrum).max(floor);
-        let missed = |(mode, pair): (usize, &[f64])| {
-            let mode = mode as f64;
-            let error =
-                if mode >= first_empty { 1.0 } else { family.symbol_error(TAU * mode / nodes as f64) };
-            error * error * dot(pair, pair)
-        };
-        // Only differences miss something of the modes below.
-        let first = if family == DerivativeFamily::Fourier { first_empty.ceil() as usize } else { 0 };
-        let missed: f64 = spectrum.chunks_exact(2).enumerate().skip(first).map(missed).sum();
-        let part = (missed / all).sqrt();
+        let part = (missed / dot(spectrum, spectrum).max(floor)).sqrt();
         if part > worst.1 {
             worst = (field, part);
         }

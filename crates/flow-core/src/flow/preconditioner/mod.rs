@@ -22,7 +22,7 @@ pub use fourier::mobility_symbol;
 use length_coupling::LengthCoupling;
 use metric_coupling::MetricCoupling;
 pub use residual_weights::ResidualWeights;
-pub use stiff_curvature::StiffCurvature;
+use stiff_curvature::StiffCurvature;
 
 /// How the linear systems of the implicit steps are preconditioned.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -82,7 +82,7 @@ impl Preconditioner {
         let coupled = length_curvature != 0.0 && !flow.normal_mobility().keeps().length;
         Self {
             weights: ResidualWeights::new(flow.spectral_layout()),
-            stiff_curvature: StiffCurvature::default(),
+            stiff_curvature: StiffCurvature::new(flow),
             inverse,
             carries: carries(flow) && !whole,
             metric: MetricCoupling::of(flow).filter(|_| !whole),
@@ -101,8 +101,7 @@ impl Preconditioner {
     /// # Errors
     /// [`FactorisationError`] if a pivot vanishes; a smaller γ helps.
     pub fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> Result<(), FactorisationError> {
-        self.weights.set(flow, gamma);
-        self.stiff_curvature.set(flow);
+        self.weights.set(flow, gamma, self.stiff_curvature.settles());
         if let Some(metric) = &mut self.metric {
             metric.set(flow, gamma);
         }
@@ -141,10 +140,9 @@ impl Preconditioner {
         &self.weights
     }
 
-    /// How the curvature settles, at the last factorisation.
-    #[must_use]
-    pub fn stiff_curvature(&self) -> &StiffCurvature {
-        &self.stiff_curvature
+    /// Overwrites the residual `r` of a stage with γ by what settles the curvature (see [`StiffCurvature`]); false if nothing does.
+    pub fn settle(&mut self, flow: &mut GradientFlow, gamma: f64, r: &mut [f64]) -> bool {
+        self.stiff_curvature.settle(flow, gamma, r)
     }
 
     fn apply_to_fields(&mut self, flow: &mut GradientFlow, r: &mut [f64]) {

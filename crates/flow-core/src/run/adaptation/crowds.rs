@@ -43,7 +43,7 @@ impl Adaptation {
             let trial = way.apply(flow, state).ok()?;
             let part = unresolved(layout, &trial, nodes, self.families[usize::from(spread)]);
             let mesh = Mesh { nodes, samples: spread.then_some(samples) };
-            Some((part, Plan { mesh, way: Way::Regraded(grading) }))
+            Some((part, Plan { mesh, way: Way::Regraded(grading, Box::new(way)) }))
         };
         let mut best = attempt(nodes)?;
         if !self.counts {

@@ -12,6 +12,7 @@ use super::mesh::Mesh;
 use super::resolution::{LEAST_NODES, MOST_NODES, least_resolved, needed_nodes};
 use super::scene::{Nodes, Scene};
 use super::setup::family;
+use crate::flow::Regrading;
 use crate::geometry::{Grading, Layout, resample};
 use crate::operators::DerivativeFamily;
 pub(super) use bound::unresolved_bound;
@@ -64,7 +65,7 @@ pub(super) enum Way {
     /// The parameter s of each point of the curve stays.
     SameParameters,
     /// To other fractions of the arc length: those of a grading, or equal ones.
-    Regraded(Option<Arc<Grading>>),
+    Regraded(Option<Arc<Grading>>, Box<Regrading>),
 }
 
 /// What a look at the nodes found.

@@ -225,8 +225,8 @@ impl Problem for Membrane {
         self.solver.unweigh(r);
     }
 
-    fn settle(&self, gamma: f64, r: &mut [f64]) -> bool {
-        self.solver.settle(&self.flow, gamma, r)
+    fn settle(&mut self, gamma: f64, r: &mut [f64]) -> bool {
+        self.solver.settle(&mut self.flow, gamma, r)
     }
 
     fn krylov_feedback(&mut self, iterations: usize) -> bool {

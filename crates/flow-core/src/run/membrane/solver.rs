@@ -95,8 +95,7 @@ impl Solver {
     }
 
     /// Overwrites the residual `r` of a stage with γ by what settles the curvature; false if that cannot be told.
-    pub fn settle(&self, flow: &GradientFlow, gamma: f64, r: &mut [f64]) -> bool {
-        let built = self.built.as_ref();
-        built.is_some_and(|built| built.stiff_curvature().settle(flow.spectral_layout(), gamma, r))
+    pub fn settle(&mut self, flow: &mut GradientFlow, gamma: f64, r: &mut [f64]) -> bool {
+        self.built.as_mut().is_some_and(|built| built.settle(flow, gamma, r))
     }
 }

@@ -3,7 +3,6 @@
 use std::time::Instant;
 
 use super::Simulation;
-use crate::flow::Regrading;
 use crate::integrator::{Adaptive, AdaptiveOptions, Factorisation, Finish, Multistep, Problem, Stepper};
 use crate::run::adaptation::{Look, Plan, Way};
 use crate::run::mesh::Mesh;
@@ -21,7 +20,8 @@ impl Simulation {
         let (served, failure) = match adaptation.look(&mut self.membrane, (time, state), &self.mesh, age) {
             Look::Serve => (true, None),
             Look::Change(plan) => {
-                (self.remap(&plan, time, energy).is_some() || plan.mesh.nodes < self.mesh.nodes, None)
+                let fewer = plan.mesh.nodes < self.mesh.nodes;
+                (self.remap(plan, time, energy).is_some() || fewer, None)
             }
             Look::Unresolved => (false, None),
             Look::Hopeless(error) => (false, Some(error)),
@@ -37,15 +37,17 @@ impl Simulation {
 
     /// Carries the past states over to the nodes of `plan` and goes on with the same order and step size; none if a state cannot
     /// be had there, or fewer nodes change the energy by more than the tolerance.
-    fn remap(&mut self, plan: &Plan, time: f64, energy: f64) -> Option<()> {
+    fn remap(&mut self, mut plan: Plan, time: f64, energy: f64) -> Option<()> {
         let turning_number = self.membrane.turning_number();
         let built = match &plan.way {
-            Way::Regraded(grading) => self.gauges.build_on(plan.mesh.nodes, grading.clone(), turning_number),
+            Way::Regraded(grading, _) => {
+                self.gauges.build_on(plan.mesh.nodes, grading.clone(), turning_number)
+            }
             Way::SameParameters => self.gauges.build(&plan.mesh, turning_number),
         };
         let (mut membrane, diagnostics) = built.ok()?;
         let mut memory = self.integration.stepper().memory();
-        match &plan.way {
+        match &mut plan.way {
             Way::SameParameters => {
                 let (old, new) = (self.membrane.flow().spectral_layout(), membrane.flow().spectral_layout());
                 for (_, state) in &mut memory.points {
@@ -60,10 +62,9 @@ impl Simulation {
                     memory = memory.implicit();
                 }
             }
-            Way::Regraded(grading) => {
+            Way::Regraded(_, way) => {
                 memory = memory.implicit();
                 let flow = self.membrane.flow();
-                let mut way = Regrading::new(flow, membrane.layout(), grading.clone(), turning_number);
                 for (_, state) in &mut memory.points {
                     *state = way.apply(flow, state).ok()?;
                 }
@@ -75,7 +76,7 @@ impl Simulation {
         };
         let error = new_energy - energy;
         let scale = energy.abs().max(ENERGY_FLOOR * (self.start.energy - energy).abs());
-        if !resolves_more(plan, &self.mesh) && error.abs() > self.tolerance * scale {
+        if !resolves_more(&plan, &self.mesh) && error.abs() > self.tolerance * scale {
             return None;
         }
         memory.factorisation = Factorisation::default();
@@ -87,7 +88,7 @@ impl Simulation {
         self.integration = Adaptive::new(stepper, options, new_energy, counters);
         (self.membrane, self.diagnostics) = (membrane, diagnostics);
         self.scratch = vec![0.0; self.membrane.size()];
-        self.mesh = plan.mesh.clone();
+        self.mesh = plan.mesh;
         self.remapped_at = counters.steps;
         Some(())
     }

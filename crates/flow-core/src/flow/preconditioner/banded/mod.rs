@@ -49,6 +49,13 @@ pub fn exists(flow: &GradientFlow) -> bool {
     flow.normal_mobility().order() == 0 && layout.nodes() >= FEWEST_NODES && layout.fields() <= MOST_FIELDS
 }
 
+/// That of the curvature alone, where one [`exists`].
+pub fn of_curvature(flow: &GradientFlow) -> Option<Box<dyn Banded>> {
+    let (nodes, grading) = (flow.layout().nodes(), flow.grading().map(Arc::as_ref));
+    let part = || -> Box<dyn Banded> { Box::new(LocalPart::<1, 3>::new(nodes, grading)) };
+    (exists(flow) && flow.layout().metric().is_none()).then(part)
+}
+
 /// Builds the solver for the number of fields, up to four; none beyond, none on a handful of nodes, and none if the normal
 /// mobility is a differential operator: it widens the band.
 pub fn build(flow: &GradientFlow) -> Option<Box<dyn Banded>> {
