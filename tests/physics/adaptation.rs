@@ -87,21 +87,29 @@ fn fronts(epsilon: f64) -> Record {
 
 #[test]
 fn sharper_fronts_ask_for_few_nodes_more() {
-    let mut most = Vec::new();
+    let mut means = Vec::new();
     for epsilon in [0.05, 0.02, 0.01, 0.005, 0.002] {
         let record = fronts(epsilon);
         assert_eq!(record.stop_reason, StopReason::EndTime, "{epsilon}");
         check_laws(&record, &format!("epsilon = {epsilon}"));
-        let last = *record.steps.nodes.last().expect("steps");
+        let mean = mean_nodes(&record);
         println!(
-            "epsilon = {epsilon}: {:?} nodes, {last} at the end, {} steps",
+            "epsilon = {epsilon}: {:?} nodes, {mean:.0} in the mean over the time, {} steps",
             extremes(&record),
             record.counters.steps
         );
-        most.push(last);
+        means.push(mean);
     }
-    let (least, greatest) = (most.iter().min().expect("some"), most.iter().max().expect("some"));
-    assert!(*greatest <= 2 * least, "{most:?}");
+    // For fronts that are twenty-five times as sharp 1.84 to 1.92 times as many, as rounding has it.
+    let (least, greatest) = (means[0], means.iter().copied().fold(0.0, f64::max));
+    assert!(greatest <= 2.0 * least, "{means:?}");
+}
+
+/// Nodes in the mean over the time of the run.
+fn mean_nodes(record: &Record) -> f64 {
+    let steps = record.steps.size.iter().zip(&record.steps.nodes);
+    let sum: f64 = steps.map(|(size, nodes)| size * f64::from(*nodes)).sum();
+    sum / record.steps.size.iter().sum::<f64>()
 }
 
 #[test]

@@ -26,6 +26,11 @@ const FIRST_LOOK: u64 = 8;
 const MARGIN_OF_FEWER: f64 = 0.3;
 const MARGIN_OF_FEWER_IN_CROWDS: f64 = 0.15;
 const MARGIN_OF_MORE: f64 = 0.6;
+/// Part of the bound beyond which the solution counts as sliding off its crowds, though not too far yet for new ones to find it clean:
+/// what it loses once they do not resolve it asks for nodes everywhere, and for steps to go away.
+const SLIDING: f64 = 0.5;
+/// Factor by which as many nodes must lower what is not resolved then.
+const BETTER_THERE: f64 = 0.8;
 /// Fewer nodes must save this part of them.
 const WORTHWHILE: f64 = 0.7;
 /// A new grading of as many nodes must lower what is not resolved by this factor.
@@ -109,8 +114,9 @@ impl Adaptation {
         let family = self.families[usize::from(membrane.flow().grading().is_some())];
         let (field, part) = least_resolved(layout, state, layout.nodes(), family);
         let resolved = part <= self.bound;
+        let slides = self.grades && resolved && age > 1 && part > SLIDING * self.bound;
         let looks = if self.grades {
-            age >= FIRST_LOOK && age.is_power_of_two()
+            slides || (age >= FIRST_LOOK && age.is_power_of_two())
         } else {
             age > 0 && age.is_multiple_of(LOOKS)
         };
@@ -122,7 +128,7 @@ impl Adaptation {
             (true, false) => MARGIN_OF_FEWER,
             (true, true) => MARGIN_OF_FEWER_IN_CROWDS,
         };
-        let aim = self.bound * margin;
+        let aim = if slides { BETTER_THERE * part } else { self.bound * margin };
         let needed = |state| needed_nodes(layout, state, aim, family).clamp(LEAST_NODES, MOST_NODES);
         let same = if self.counts { needed(state) } else { mesh.nodes };
         let crowds = if self.grades { self.crowds(membrane, state, mesh.nodes, aim) } else { None };
@@ -131,7 +137,8 @@ impl Adaptation {
             let nodes = plan.mesh.nodes;
             let better = unresolved < BETTER * part && part > BETTER * self.bound;
             let serves = !resolved && self.counts && nodes <= same;
-            if serves || worthwhile(nodes, same.min(mesh.nodes)) || (!self.counts && better) {
+            let follows = slides && unresolved <= aim && nodes <= mesh.nodes;
+            if serves || follows || worthwhile(nodes, same.min(mesh.nodes)) || (!self.counts && better) {
                 return Look::Change(plan);
             }
         }
