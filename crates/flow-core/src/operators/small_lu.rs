@@ -66,7 +66,9 @@ fn factorise(entries: &mut [f64], swaps: &mut [usize]) -> Option<(usize, f64)> {
             return Some((c, pivot));
         }
         let (_, below) = column.split_at_mut(c + 1);
-        below.iter_mut().for_each(|entry| *entry /= pivot);
+        for entry in &mut *below {
+            *entry /= pivot;
+        }
         for other in after.chunks_exact_mut(size) {
             other.swap(c, largest);
             let factor = other[c];
