@@ -18,7 +18,7 @@ use crate::operators::DerivativeFamily;
 pub(super) use bound::unresolved_bound;
 pub use error::ResolutionError;
 
-/// Steps on the same nodes between looks at whether fewer would do.
+/// Steps on the same nodes between looks at whether fewer would do, or other crowds.
 const LOOKS: u64 = 4;
 /// Where nodes crowd a look is dear: the first one after so many steps, then after twice as many, and so on.
 const FIRST_LOOK: u64 = 8;
@@ -114,9 +114,10 @@ impl Adaptation {
         let family = self.families[usize::from(membrane.flow().grading().is_some())];
         let (field, part) = least_resolved(layout, state, layout.nodes(), family);
         let resolved = part <= self.bound;
-        let slides = self.grades && resolved && age > 1 && part > SLIDING * self.bound;
+        let slides = self.grades && resolved && part > SLIDING * self.bound;
         let looks = if self.grades {
-            slides || (age >= FIRST_LOOK && age.is_power_of_two())
+            let soon = age > 1 && (age < FIRST_LOOK || age.is_multiple_of(LOOKS));
+            (slides && soon) || (age >= FIRST_LOOK && age.is_power_of_two())
         } else {
             age > 0 && age.is_multiple_of(LOOKS)
         };
