@@ -1,7 +1,7 @@
 //! The step loop with its guards: finite values, falling energy, step sizes above rounding.
 
 use super::{
-    Counters, Finish, INTEGRALS, IntegrationError, Problem, Rejection, Rejections, Rest, Stepper,
+    Counters, Finish, INTEGRALS, IntegrationError, Problem, Rejection, Rejections, Rest, StepReport, Stepper,
     integrals::POSITIVE, pace::on_scale,
 };
 
@@ -14,25 +14,6 @@ pub struct AdaptiveOptions {
     pub most_steps: u64,
     /// Part of the energy by which one step's balance of energy and dissipation may be off.
     pub energy_tolerance: f64,
-}
-
-/// What one accepted step did.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StepReport {
-    /// Time at its end.
-    pub time: f64,
-    /// Its size.
-    pub size: f64,
-    /// Order of the method.
-    pub order: usize,
-    /// Energy at its end.
-    pub energy: f64,
-    /// Dissipation at its end.
-    pub dissipation: f64,
-    /// Dissipation there without what the implicit solve left in stiff modes, which dies before the next step.
-    pub settled_dissipation: f64,
-    /// Attempts rejected before it.
-    pub rejections: Rejections,
 }
 
 /// The loop around a stepper.
@@ -201,7 +182,13 @@ impl<S: Stepper> Adaptive<S> {
         let time = self.stepper.time() + size;
         let mut finish = self.finish(problem, time);
         if self.is_rough(problem, &finish, size) && self.stepper.settle(problem) {
+            let rough = finish.dissipation();
             finish = self.finish(problem, time);
+            // Late, when steps are long, what is left is no matter of the curvature alone.
+            if finish.dissipation() > rough {
+                self.stepper.unsettle();
+                finish = self.finish(problem, time);
+            }
         }
         for _ in 0..MOST_POLISHES {
             if !self.is_rough(problem, &finish, size) || !self.stepper.polish(problem, &mut self.counters) {

@@ -17,9 +17,10 @@ mod newton;
 mod pace;
 mod rest;
 mod statistics;
+mod step_report;
 mod stopwatch;
 
-pub use adaptive::{Adaptive, AdaptiveOptions, StepReport};
+pub use adaptive::{Adaptive, AdaptiveOptions};
 pub use bdf::Bdf;
 pub use error::IntegrationError;
 pub use error_norm::ErrorNorm;
@@ -33,6 +34,7 @@ pub use multistep::Multistep;
 pub use newton::{Factorisation, NewtonKrylov, NewtonOutcome, Stage};
 pub use rest::Rest;
 pub use statistics::{Counters, Rejections};
+pub use step_report::StepReport;
 pub use stopwatch::{Activity, Clocked, Stopwatch};
 
 /// A system dy/dt = f(y) with an implicit operator I − γJ, J ≈ f′.
@@ -153,6 +155,8 @@ pub trait Stepper {
     fn settle(&mut self, _problem: &mut dyn Problem) -> bool {
         false
     }
+    /// Takes [`Stepper::settle`] back.
+    fn unsettle(&mut self) {}
     /// Solves the candidate more exactly; false if that cannot be done.
     fn polish(&mut self, _problem: &mut dyn Problem, _counters: &mut Counters) -> bool {
         false

@@ -137,6 +137,10 @@ impl Stepper for Multistep {
         self.stepper_mut().settle(problem)
     }
 
+    fn unsettle(&mut self) {
+        self.stepper_mut().unsettle();
+    }
+
     fn polish(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> bool {
         self.stepper_mut().polish(problem, counters)
     }

@@ -101,7 +101,7 @@ impl Preconditioner {
     /// # Errors
     /// [`FactorisationError`] if a pivot vanishes; a smaller γ helps.
     pub fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> Result<(), FactorisationError> {
-        self.weights.set(flow, gamma, self.stiff_curvature.settles());
+        self.weights.set(flow, gamma);
         if let Some(metric) = &mut self.metric {
             metric.set(flow, gamma);
         }

@@ -1,9 +1,9 @@
 //! Weights of residuals r = b − (I − γJ)x, between the two that are of interest.
 //!
 //! A residual r of a stiff mode with symbol 1 + γσ is an error r/(1 + γσ) of the state, but an error r/γ of the rate,
-//! which enters the dissipation. (1 + γσ)^{−3/8} keeps both small and does not ask for more; in the curvature ^{−5/8} does, since
-//! what is left settles at no cost (see [`super::stiff_curvature`]). Where nodes crowd and it does not, (1 + γσ)^{−1/4} does that in
-//! all fields. See `THEORY.md`, eq. (I3).
+//! which enters the dissipation. (1 + γσ)^{−3/8} keeps both small and does not ask for more; in the curvature ^{−5/8} does, where
+//! what is left settles at no cost (see [`super::stiff_curvature`]). Where nodes crowd, σ, a mean, is far below the stiffness there,
+//! and (1 + γσ)^{−1/4} does that. See `THEORY.md`, eq. (I3).
 
 use super::super::gradient_flow::GradientFlow;
 use super::fourier::diagonal_symbol;
@@ -29,10 +29,10 @@ impl ResidualWeights {
         Self { weights: ones.clone(), inverses: ones, any: false, stiffness: vec![0.0; layout.modes()] }
     }
 
-    /// Takes the symbols at the frozen state of `flow`, without the variable coefficients; `settles` tells whether the curvature does.
-    pub fn set(&mut self, flow: &mut GradientFlow, gamma: f64, settles: bool) {
+    /// Takes the symbols at the frozen state of `flow`, without the variable coefficients.
+    pub fn set(&mut self, flow: &mut GradientFlow, gamma: f64) {
         let layout = flow.spectral_layout();
-        let loose = !settles && !flow.is_equidistant();
+        let equidistant = flow.is_equidistant();
         for place in 0..flow.layout().state_fields() {
             // The metric moves as stiffly as the curvature.
             let field = if Some(place) == flow.layout().metric() { 0 } else { place };
@@ -51,10 +51,10 @@ impl ResidualWeights {
             for ((inverse, weight), stiffness) in inverses.iter_mut().zip(weights).zip(&self.stiffness) {
                 let half = (1.0 + stiffness).sqrt();
                 let quarter = half.sqrt();
-                let root = match (loose, field) {
-                    (true, _) => quarter,
-                    (false, 0) => half * quarter.sqrt(),
-                    (false, _) => quarter * quarter.sqrt(),
+                let root = match (equidistant, field) {
+                    (false, _) => quarter,
+                    (true, 0) => half * quarter.sqrt(),
+                    (true, _) => quarter * quarter.sqrt(),
                 };
                 *inverse = [root; 2];
                 *weight = [1.0 / root; 2];

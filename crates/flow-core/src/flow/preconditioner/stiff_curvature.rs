@@ -35,11 +35,6 @@ impl StiffCurvature {
         }
     }
 
-    /// Whether anything settles it.
-    pub fn settles(&self) -> bool {
-        !matches!(self, Self::No)
-    }
-
     /// Overwrites the residual `r` of a stage with γ by the change of the curvature that takes back its stiff part, r γσ/(1 + γσ)²
     /// with σ at the linearisation of `flow`, and of nothing else; false if that does not settle it.
     pub fn settle(&mut self, flow: &mut GradientFlow, gamma: f64, r: &mut [f64]) -> bool {

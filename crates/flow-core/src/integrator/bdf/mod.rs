@@ -236,6 +236,10 @@ impl Stepper for Bdf {
         settles
     }
 
+    fn unsettle(&mut self) {
+        add_scaled(&mut self.candidate, -1.0, &self.difference);
+    }
+
     fn polish(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> bool {
         let gamma = self.gamma();
         let stage = stage(gamma, &self.constant, self.tolerance);

@@ -54,6 +54,13 @@ impl<const F: usize> Coefficients<F> {
         }
     }
 
+    /// Takes what is concave in a single field for flat.
+    pub fn make_convex(&mut self) {
+        for second in &mut self.values[F * self.nodes..] {
+            *second = second.max(0.0);
+        }
+    }
+
     /// Field `f` at node `i`.
     pub fn field(&self, i: usize, f: usize) -> f64 {
         self.values[f * self.nodes + i]

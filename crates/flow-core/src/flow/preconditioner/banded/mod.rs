@@ -49,11 +49,11 @@ pub fn exists(flow: &GradientFlow) -> bool {
     flow.normal_mobility().order() == 0 && layout.nodes() >= FEWEST_NODES && layout.fields() <= MOST_FIELDS
 }
 
-/// That of the curvature alone, where one [`exists`].
+/// That of the curvature alone, where one [`exists`]; what the densities at hand make concave is left out.
 pub fn of_curvature(flow: &GradientFlow) -> Option<Box<dyn Banded>> {
     let (nodes, grading) = (flow.layout().nodes(), flow.grading().map(Arc::as_ref));
-    let part = || -> Box<dyn Banded> { Box::new(LocalPart::<1, 3>::new(nodes, grading)) };
-    (exists(flow) && flow.layout().metric().is_none()).then(part)
+    let part = || LocalPart::<1, 3> { is_convex: true, ..LocalPart::new(nodes, grading) };
+    (exists(flow) && flow.layout().metric().is_none()).then(|| Box::new(part()) as Box<dyn Banded>)
 }
 
 /// Builds the solver for the number of fields, up to four; none beyond, none on a handful of nodes, and none if the normal
@@ -88,6 +88,8 @@ struct LocalPart<const F: usize, const B: usize> {
     /// Whether 𝓚 makes no mean, by field.
     keeps_mean: [bool; F],
     local: Option<LocalSpacing>,
+    /// Whether the energy density counts as convex.
+    is_convex: bool,
     matrix: CyclicBanded<B>,
     /// Symbol of A by mode.
     mass: Vec<f64>,
@@ -112,6 +114,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
             fine_modes,
             keeps_mean: [true; F],
             local: grading.map(|grading| LocalSpacing::new(grading, coarse)),
+            is_convex: false,
             stencils: Stencils::new(matrix.places() / F),
             matrix,
             mass: (0..grid.modes()).map(|mode| mass_symbol(mode, coarse)).collect(),
@@ -172,6 +175,9 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
             *keeps = density.conserves_mass();
         }
         self.coefficients.set(flow, &mut self.grid);
+        if self.is_convex {
+            self.coefficients.make_convex();
+        }
         self.set_correction(flow, gamma);
         let scale = (self.grid.nodes() as f64 / flow.frozen().length()).powi(2);
         self.fill(flow, gamma, scale);

@@ -1,0 +1,22 @@
+//! What a step of the loop tells.
+
+use super::Rejections;
+
+/// What one accepted step did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepReport {
+    /// Time at its end.
+    pub time: f64,
+    /// Its size.
+    pub size: f64,
+    /// Order of the method.
+    pub order: usize,
+    /// Energy at its end.
+    pub energy: f64,
+    /// Dissipation at its end.
+    pub dissipation: f64,
+    /// Dissipation there without what the implicit solve left in stiff modes, which dies before the next step.
+    pub settled_dissipation: f64,
+    /// Attempts rejected before it.
+    pub rejections: Rejections,
+}
