@@ -1,6 +1,8 @@
 //! The guards of the step loop, on a problem that a caller brings.
 
-use flow_core::integrator::{Adaptive, AdaptiveOptions, Counters, INTEGRALS, Integrals, Multistep, Stepper};
+use flow_core::integrator::{
+    Adaptive, AdaptiveOptions, Bdf, Counters, INTEGRALS, Integrals, Multistep, Stepper,
+};
 
 use crate::scalar::{Law, Scalar};
 
@@ -68,4 +70,44 @@ fn a_step_whose_balance_is_no_number_is_not_taken() {
         assert!((energy - integration.energy() - dissipated).abs() < tolerance * energy, "{name}");
         assert!((2.0 - end - moved).abs() < tolerance, "{name}: ∫y dt = {moved}, y = {end}");
     }
+}
+
+/// ẏ = −y with the energy y², whose candidates tell five times their dissipation, and settle by going up.
+#[derive(Default)]
+struct Rough {
+    settled: usize,
+}
+
+impl Law for Rough {
+    fn rate(&self, y: f64) -> f64 {
+        -y
+    }
+
+    fn slope(&self, _: f64) -> f64 {
+        -1.0
+    }
+
+    fn word(&self, _: f64, y: f64) -> Word {
+        (y * y, [10.0 * y * y, y, 0.0, 0.0])
+    }
+
+    fn settle(&mut self) -> Option<f64> {
+        self.settled += 1;
+        Some(0.5)
+    }
+}
+
+#[test]
+fn what_settles_for_the_worse_is_taken_back() {
+    let (start, tolerance, mut counters) = (2.0, 1e-4, Counters::default());
+    let mut problem = Scalar::new(Rough::default());
+    let (energy, rates) = problem.law().word(0.0, start);
+    let stepper = Bdf::new(&mut problem, &[start], rates, tolerance, &mut counters);
+    let options = AdaptiveOptions { end: 1.0, most_steps: 10_000, energy_tolerance: 0.1 };
+    let mut integration = Adaptive::new(stepper, options, energy, counters);
+    while integration.stepper().time() < options.end {
+        integration.step(&mut problem).expect("a step");
+    }
+    let error = integration.stepper().state()[0] / (start * (-1.0_f64).exp()) - 1.0;
+    assert!(problem.law().settled > 0 && error.abs() < 10.0 * tolerance, "{error:.1e}");
 }

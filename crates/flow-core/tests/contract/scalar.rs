@@ -15,6 +15,11 @@ pub trait Law {
     /// Energy and rates of the integrals, the dissipation first.
     fn word(&self, time: f64, y: f64) -> (f64, [f64; INTEGRALS]);
 
+    /// What settles a candidate, if anything does.
+    fn settle(&mut self) -> Option<f64> {
+        None
+    }
+
     /// A step to `time` is accepted.
     fn accepted(&mut self, _time: f64) {}
 
@@ -34,6 +39,10 @@ pub struct Scalar<L> {
 impl<L> Scalar<L> {
     pub fn new(law: L) -> Self {
         Self { law, slope: 0.0 }
+    }
+
+    pub fn law(&self) -> &L {
+        &self.law
     }
 }
 
@@ -74,6 +83,13 @@ impl<L: Law> Problem for Scalar<L> {
     fn weigh(&self, _: &mut [f64]) {}
 
     fn unweigh(&self, _: &mut [f64]) {}
+
+    fn settle(&mut self, _: f64, r: &mut [f64]) -> bool {
+        self.law.settle().is_some_and(|change| {
+            r[0] = change;
+            true
+        })
+    }
 
     fn krylov_feedback(&mut self, _: usize) -> bool {
         false
