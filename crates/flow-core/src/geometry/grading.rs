@@ -53,8 +53,7 @@ impl Grading {
         scale(&mut weight, total);
         scale(&mut at_midpoints, total);
         let mut grid = PeriodicGrid::new(nodes);
-        let mut spectrum = vec![Complex64::default(); grid.modes()];
-        let mut shift = vec![0.0; nodes];
+        let (mut spectrum, mut shift) = (vec![Complex64::default(); grid.modes()], vec![0.0; nodes]);
         grid.transform(&weight, &mut spectrum);
         let half: Vec<Complex64> =
             spectrum.iter().enumerate().map(|(j, w)| w * half_step(&grid, j)).collect();
