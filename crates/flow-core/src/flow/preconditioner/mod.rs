@@ -140,7 +140,7 @@ impl Preconditioner {
         &self.weights
     }
 
-    /// Overwrites the residual `r` of a stage with γ by what settles the curvature (see [`StiffCurvature`]); false if nothing does.
+    /// Overwrites the residual `r` of a stage with γ by what settles the curvature; false if nothing does. See `THEORY.md`, eq. (I2).
     pub fn settle(&mut self, flow: &mut GradientFlow, gamma: f64, r: &mut [f64]) -> bool {
         self.stiff_curvature.settle(flow, gamma, r)
     }
