@@ -81,14 +81,12 @@ impl ScatteredPoints {
     fn move_to(&mut self, places: &[f64]) {
         let nodes = self.fine.nodes();
         let count = nodes as f64;
-        self.points.resize(places.len(), (0, [0.0; WIDTH]));
-        for ((start, weights), s) in self.points.iter_mut().zip(places) {
+        self.points.clear();
+        self.points.extend(places.iter().map(|s| {
             let place = s.rem_euclid(1.0) * count;
             let first = (place - 0.5 * WIDTH as f64).ceil();
-            *start = first.rem_euclid(count) as usize % nodes;
-            weights[0] = first - place;
-        }
-        set_weights(&mut self.points);
+            (first.rem_euclid(count) as usize % nodes, weights(first - place))
+        }));
     }
 
     /// Values at the points of the polynomial with the coefficients `spectrum`.
@@ -110,20 +108,18 @@ impl ScatteredPoints {
     }
 }
 
-/// Weights of the points, the first of which is given the distance of its fine node from the point.
+/// Weights of the fine nodes, the first of which is at `distance` from the point.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn set_weights(points: &mut [(usize, [f64; WIDTH])]) {
+fn weights(distance: f64) -> [f64; WIDTH] {
     const WHOLE_REGISTERS: usize = WIDTH.next_multiple_of(8);
-    for (_, weights) in points {
-        let mut kernel = [0.0; WHOLE_REGISTERS];
-        for (i, value) in kernel.iter_mut().enumerate() {
-            let z = (weights[0] + i as f64) * (2.0 / WIDTH as f64);
-            let square = 1.0 - z * z;
-            let height = if square > 0.0 { square } else { 0.0 };
-            *value = exp(SHAPE * (height.sqrt() - 1.0));
-        }
-        weights.copy_from_slice(&kernel[..WIDTH]);
+    let mut kernel = [0.0; WHOLE_REGISTERS];
+    for (i, value) in kernel.iter_mut().enumerate() {
+        let z = (distance + i as f64) * (2.0 / WIDTH as f64);
+        let square = 1.0 - z * z;
+        let height = if square > 0.0 { square } else { 0.0 };
+        *value = exp(SHAPE * (height.sqrt() - 1.0));
     }
+    std::array::from_fn(|i| kernel[i])
 }
 
 /// One over the coefficients of the kernel on a grid of `fine` nodes, for the modes of one of `nodes`.

@@ -7,12 +7,14 @@
 
 mod coefficients;
 mod rows;
+mod window;
 
 use std::fmt::Debug;
 use std::sync::Arc;
 
 pub use coefficients::Coefficients;
 use rows::Stencils;
+pub use window::Window;
 
 use super::compact_laplacian::{mass_symbol, symbol_of_mass};
 use super::fourier::{diagonal_symbol, mobility_symbol};
@@ -20,7 +22,7 @@ use super::local_spacing::LocalSpacing;
 use super::material::MaterialPart;
 use crate::flow::gradient_flow::GradientFlow;
 use crate::geometry::vectors::{mean, multiply};
-use crate::geometry::{Complex64, Grading, PeriodicGrid};
+use crate::geometry::{Complex64, Grading};
 use crate::operators::{CyclicBanded, FactorisationError};
 
 /// More nodes make the assembled sixth-order band inaccurate, and buy nothing.
@@ -83,8 +85,7 @@ pub fn build(flow: &GradientFlow) -> Option<Box<dyn Banded>> {
 
 #[derive(Debug)]
 struct LocalPart<const F: usize, const B: usize> {
-    fine_modes: usize,
-    grid: PeriodicGrid,
+    window: Window,
     /// Whether 𝓚 makes no mean, by field.
     keeps_mean: [bool; F],
     local: Option<LocalSpacing>,
@@ -101,17 +102,15 @@ struct LocalPart<const F: usize, const B: usize> {
     stencils: Stencils<F>,
     /// All fields at the nodes.
     values: Vec<f64>,
-    spectrum: Vec<Complex64>,
 }
 
 impl<const F: usize, const B: usize> LocalPart<F, B> {
     fn new(nodes: usize, grading: Option<&Grading>) -> Self {
         let coarse = nodes.clamp(8, if grading.is_some() { MOST_GRADED_NODES } else { MOST_NODES });
-        let grid = PeriodicGrid::new(coarse);
-        let fine_modes = nodes / 2 + 1;
+        let window = Window::new(nodes, coarse);
+        let grid = &window.grid;
         let matrix = CyclicBanded::in_blocks(coarse * F, F);
         Self {
-            fine_modes,
             keeps_mean: [true; F],
             local: grading.map(|grading| LocalSpacing::new(grading, coarse)),
             is_convex: false,
@@ -120,10 +119,9 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
             mass: (0..grid.modes()).map(|mode| mass_symbol(mode, coarse)).collect(),
             before: vec![1.0; F * grid.modes()],
             after: vec![1.0; F * grid.modes()],
-            coefficients: Coefficients::new(nodes, &grid),
+            coefficients: Coefficients::new(nodes, grid),
             values: vec![0.0; coarse * F],
-            spectrum: vec![Complex64::default(); grid.modes()],
-            grid,
+            window,
         }
     }
 
@@ -146,11 +144,11 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
     }
 
     fn set_correction(&mut self, flow: &mut GradientFlow, gamma: f64) {
-        let (coarse, modes) = (self.grid.nodes(), self.grid.modes());
+        let (coarse, modes) = (self.window.grid.nodes(), self.window.grid.modes());
         for field in 0..F {
             let second = flow.energy_terms().jet().second(field, field);
             let mean = mean(second).max(0.0);
-            for mode in 0..modes.min(self.fine_modes) {
+            for mode in 0..self.window.common_modes() {
                 let exact = flow.grid_and_derivative().1.minus_laplacian()[mode];
                 let mass = self.mass[mode];
                 let difference = symbol_of_mass(mass, coarse);
@@ -165,35 +163,27 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
 
 impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
     fn modes(&self) -> usize {
-        let modes = self.grid.modes();
-        // The sawtooth of a coarser grid has a sine part, which that grid does not see.
-        if modes < self.fine_modes { modes - 1 } else { modes }
+        self.window.modes()
     }
 
     fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> Result<(), FactorisationError> {
         for (keeps, density) in self.keeps_mean.iter_mut().skip(1).zip(flow.density_mobilities()) {
             *keeps = density.conserves_mass();
         }
-        self.coefficients.set(flow, &mut self.grid);
+        self.coefficients.set(flow, &mut self.window.grid);
         if self.is_convex {
             self.coefficients.make_convex();
         }
         self.set_correction(flow, gamma);
-        let scale = (self.grid.nodes() as f64 / flow.frozen().length()).powi(2);
+        let scale = (self.window.grid.nodes() as f64 / flow.frozen().length()).powi(2);
         self.fill(flow, gamma, scale);
         self.matrix.factorise()
     }
 
     fn apply(&mut self, spectra: &mut [Complex64]) {
-        let (nodes, modes, low) = (self.grid.nodes(), self.grid.modes(), self.modes());
+        let (nodes, modes) = (self.window.grid.nodes(), self.window.grid.modes());
         for (field, values) in self.values.chunks_exact_mut(nodes).enumerate() {
-            let factors = &self.before[field * modes..][..low];
-            let spectrum = &spectra[field * self.fine_modes..(field + 1) * self.fine_modes];
-            self.spectrum.fill(Complex64::default());
-            for ((target, value), factor) in self.spectrum.iter_mut().zip(spectrum).zip(factors) {
-                *target = value * factor;
-            }
-            self.grid.synthesise(&self.spectrum, values);
+            self.window.synthesise(spectra, field, &self.before[field * modes..], values);
             if let Some(local) = &self.local {
                 multiply(values, &local.inverse);
             }
@@ -203,14 +193,9 @@ impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
             if let Some(local) = &self.local {
                 multiply(values, &local.weight);
             }
-            self.grid.transform(values, &mut self.spectrum);
-            let factors = &self.after[field * modes..][..low];
-            let spectrum = &mut spectra[field * self.fine_modes..(field + 1) * self.fine_modes];
             // Where J makes no mean, its local part does: the mean stays as it was.
-            let kept = usize::from(self.keeps_mean[field]);
-            for ((target, value), factor) in spectrum.iter_mut().zip(&self.spectrum).zip(factors).skip(kept) {
-                *target = value * factor;
-            }
+            let place = (field, self.keeps_mean[field]);
+            self.window.transform(values, place, &self.after[field * modes..], spectra);
         }
     }
 }

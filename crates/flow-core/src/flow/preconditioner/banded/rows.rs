@@ -71,7 +71,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
     }
 
     fn take_nodes(&mut self, flow: &GradientFlow, scale: f64) {
-        let (nodes, length) = (self.grid.nodes(), flow.frozen().length());
+        let (nodes, length) = (self.window.grid.nodes(), flow.frozen().length());
         let firsts = self.matrix.first_rows().map(|row| row / F as isize - MARGIN as isize);
         for (place, node) in self.stencils.nodes.iter_mut().enumerate() {
             for lane in 0..LANES {

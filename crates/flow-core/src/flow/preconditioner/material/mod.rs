@@ -6,12 +6,12 @@
 
 mod rows;
 
-use super::banded::{Banded, Coefficients, MOST_NODES};
+use super::banded::{Banded, Coefficients, MOST_NODES, Window};
 use super::fourier::mobility_symbol;
 use super::local_spacing::LocalSpacing;
 use crate::flow::gradient_flow::GradientFlow;
 use crate::geometry::vectors::{mean, multiply, scale};
-use crate::geometry::{Complex64, Grading, PeriodicGrid};
+use crate::geometry::{Complex64, Grading};
 use crate::operators::{CyclicBanded, FactorisationError};
 
 /// Coefficients of all `F` unknowns at one node.
@@ -20,8 +20,7 @@ type Row<const F: usize> = [f64; F];
 /// The band of one flow whose metric is a field.
 #[derive(Debug)]
 pub struct MaterialPart<const F: usize, const B: usize> {
-    fine_modes: usize,
-    grid: PeriodicGrid,
+    window: Window,
     /// Whether 𝓚 makes no mean, by field.
     keeps_mean: [bool; F],
     local: LocalSpacing,
@@ -37,39 +36,38 @@ pub struct MaterialPart<const F: usize, const B: usize> {
     stretch_rows: Vec<[Row<F>; 5]>,
     /// All unknowns at the nodes.
     values: Vec<f64>,
-    spectrum: Vec<Complex64>,
 }
 
 impl<const F: usize, const B: usize> MaterialPart<F, B> {
     /// For a flow on `nodes` nodes.
     pub fn new(nodes: usize) -> Self {
         let coarse = nodes.clamp(8, MOST_NODES);
-        let grid = PeriodicGrid::new(coarse);
+        let window = Window::new(nodes, coarse);
+        let grid = &window.grid;
         Self {
-            fine_modes: nodes / 2 + 1,
             keeps_mean: [false; F],
             local: LocalSpacing::new(&Grading::uniform(nodes), coarse),
             length: 1.0,
             matrix: CyclicBanded::in_blocks(coarse * F, F),
             roots: vec![1.0; F * grid.modes()],
-            coefficients: Coefficients::new(nodes, &grid),
+            coefficients: Coefficients::new(nodes, grid),
             motion_rows: vec![[[[0.0; F]; 3]; F]; coarse],
             slope_rows: vec![[[[0.0; F]; 4]; F]; coarse],
             gradient_rows: vec![[[[0.0; F]; 5]; F]; coarse],
             stretch_rows: vec![[[0.0; F]; 5]; coarse],
             values: vec![0.0; coarse * F],
-            spectrum: vec![Complex64::default(); grid.modes()],
-            grid,
+            window,
         }
     }
 
     /// Roots of the ratio of the symbols with mean coefficients, by second differences with 𝓑 = Id to the right ones.
     fn set_roots(&mut self, flow: &mut GradientFlow, gamma: f64) {
-        let (nodes, modes, length) = (self.grid.nodes() as f64, self.grid.modes(), flow.symbol_length());
+        let (nodes, modes, length) =
+            (self.window.grid.nodes() as f64, self.window.grid.modes(), flow.symbol_length());
         for field in 0..F {
             let mean = mean(flow.energy_terms().jet().second(field, field)).max(0.0);
             let stiffness = flow.energy_terms().implicit_stiffness()[field];
-            for mode in 0..modes.min(self.fine_modes) {
+            for mode in 0..self.window.common_modes() {
                 let exact = flow.grid_and_derivative().1.minus_laplacian()[mode];
                 let difference = (2.0 * nodes * (std::f64::consts::PI * mode as f64 / nodes).sin()).powi(2);
                 let band = match field {
@@ -88,9 +86,7 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
 
 impl<const F: usize, const B: usize> Banded for MaterialPart<F, B> {
     fn modes(&self) -> usize {
-        let modes = self.grid.modes();
-        // The sawtooth of a coarser grid has a sine part, which that grid does not see.
-        if modes < self.fine_modes { modes - 1 } else { modes }
+        self.window.modes()
     }
 
     fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> Result<(), FactorisationError> {
@@ -101,7 +97,7 @@ impl<const F: usize, const B: usize> Banded for MaterialPart<F, B> {
         if let Some(metric) = flow.frozen().moving_metric() {
             self.local.set(metric);
         }
-        self.coefficients.set(flow, &mut self.grid);
+        self.coefficients.set(flow, &mut self.window.grid);
         self.set_roots(flow, gamma);
         self.set_stencils(flow.energy_terms().implicit_stiffness());
         self.fill(flow, gamma);
@@ -109,15 +105,9 @@ impl<const F: usize, const B: usize> Banded for MaterialPart<F, B> {
     }
 
     fn apply(&mut self, spectra: &mut [Complex64]) {
-        let (nodes, modes, low) = (self.grid.nodes(), self.grid.modes(), self.modes());
+        let (nodes, modes) = (self.window.grid.nodes(), self.window.grid.modes());
         for (field, values) in self.values.chunks_exact_mut(nodes).enumerate() {
-            let roots = &self.roots[field * modes..][..low];
-            let spectrum = &spectra[field * self.fine_modes..(field + 1) * self.fine_modes];
-            self.spectrum.fill(Complex64::default());
-            for ((target, value), root) in self.spectrum.iter_mut().zip(spectrum).zip(roots) {
-                *target = value * root;
-            }
-            self.grid.synthesise(&self.spectrum, values);
+            self.window.synthesise(spectra, field, &self.roots[field * modes..], values);
             if field > 0 {
                 multiply(values, &self.local.inverse);
                 scale(values, 1.0 / self.length);
@@ -129,14 +119,9 @@ impl<const F: usize, const B: usize> Banded for MaterialPart<F, B> {
                 multiply(values, &self.local.weight);
                 scale(values, self.length);
             }
-            self.grid.transform(values, &mut self.spectrum);
-            let roots = &self.roots[field * modes..][..low];
-            let spectrum = &mut spectra[field * self.fine_modes..(field + 1) * self.fine_modes];
             // Where J makes no mean, its local part does: the mean stays as it was.
-            let kept = usize::from(self.keeps_mean[field]);
-            for ((target, value), root) in spectrum.iter_mut().zip(&self.spectrum).zip(roots).skip(kept) {
-                *target = value * root;
-            }
+            let place = (field, self.keeps_mean[field]);
+            self.window.transform(values, place, &self.roots[field * modes..], spectra);
         }
     }
 }

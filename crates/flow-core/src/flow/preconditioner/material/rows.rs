@@ -8,7 +8,7 @@ use crate::flow::gradient_flow::GradientFlow;
 impl<const F: usize, const B: usize> MaterialPart<F, B> {
     /// Weights of `Δ_s` at node `i`.
     fn laplacian(&self, i: usize) -> [f64; 3] {
-        let scale = (self.grid.nodes() as f64 / self.length).powi(2);
+        let scale = (self.window.grid.nodes() as f64 / self.length).powi(2);
         self.local.differences[i].map(|weight| scale * weight)
     }
 
@@ -20,18 +20,18 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
 
     /// Arc length that belongs to node `i`, and that from it to the next one.
     fn lengths(&self, i: usize) -> [f64; 2] {
-        let (inverse, scale) = (self.local.inverse[i], self.length / self.grid.nodes() as f64);
+        let (inverse, scale) = (self.local.inverse[i], self.length / self.window.grid.nodes() as f64);
         [scale * self.local.weight[i], scale * inverse / self.local.differences[i][2]]
     }
 
     pub(super) fn set_stencils(&mut self, stiffness: &[f64]) {
-        for i in 0..self.grid.nodes() {
+        for i in 0..self.window.grid.nodes() {
             self.motion_rows[i] = self.motion(i);
         }
-        for i in 0..self.grid.nodes() {
+        for i in 0..self.window.grid.nodes() {
             self.slope_rows[i] = std::array::from_fn(|f| self.slope(i, f));
         }
-        for i in 0..self.grid.nodes() {
+        for i in 0..self.window.grid.nodes() {
             (self.gradient_rows[i], self.stretch_rows[i]) = self.gradient(i, stiffness);
         }
     }
@@ -52,13 +52,13 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
 
     /// Slope of field `f` from node `i` to the next one.
     fn slope_of(&self, i: usize, f: usize) -> f64 {
-        let next = (i + 1) % self.grid.nodes();
+        let next = (i + 1) % self.window.grid.nodes();
         (self.coefficients.field(next, f) - self.coefficients.field(i, f)) / self.lengths(i)[1]
     }
 
     /// ∇_sδφ − λ∇_sφ of field `f` between node `i` and the next one, over the nodes i−1 … i+2.
     fn slope(&self, i: usize, f: usize) -> [Row<F>; 4] {
-        let next = (i + 1) % self.grid.nodes();
+        let next = (i + 1) % self.window.grid.nodes();
         let (inverse, half) = (1.0 / self.lengths(i)[1], 0.5 * self.slope_of(i, f));
         let mut slope = [[0.0; F]; 4];
         for k in 0..3 {
@@ -74,7 +74,7 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
 
     /// Derivatives of half the second variation by δφ at node `i`, and by λ.
     fn gradient(&self, i: usize, stiffness: &[f64]) -> ([[Row<F>; 5]; F], [Row<F>; 5]) {
-        let before = neighbours(i, self.grid.nodes())[0];
+        let before = neighbours(i, self.window.grid.nodes())[0];
         let (own, kappa) = (self.lengths(i)[0], self.coefficients.field(i, 0));
         let (mut gradient, mut stretch) = ([[[0.0; F]; 5]; F], [[0.0; F]; 5]);
         for f in 0..F {
@@ -104,7 +104,7 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
 
     /// Fills I + γ(Bᵀp for v, 𝓖p for ν).
     pub(super) fn fill(&mut self, flow: &GradientFlow, gamma: f64) {
-        let (densities, nodes) = (flow.density_mobilities(), self.grid.nodes());
+        let (densities, nodes) = (flow.density_mobilities(), self.window.grid.nodes());
         self.matrix.clear();
         for i in 0..nodes {
             for f in 0..F {
