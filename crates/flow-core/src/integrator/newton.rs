@@ -55,6 +55,15 @@ impl Stage<'_> {
     }
 }
 
+/// What a stage has taken so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Effort {
+    /// Linear solves.
+    pub solves: usize,
+    /// Krylov iterations in them.
+    pub iterations: usize,
+}
+
 /// The iteration with its memory: age of the factorisation.
 #[derive(Clone, Debug)]
 pub struct NewtonKrylov {
@@ -62,6 +71,7 @@ pub struct NewtonKrylov {
     /// The rate at an iterate, then its residual, then its correction.
     correction: Vec<f64>,
     factorisation: Factorisation,
+    effort: Effort,
 }
 
 /// How old the factorisation is, and how well it serves.
@@ -84,7 +94,13 @@ impl NewtonKrylov {
             gmres: Gmres::new(size, MOST_KRYLOV),
             correction: vec![0.0; size],
             factorisation: Factorisation::default(),
+            effort: Effort::default(),
         }
+    }
+
+    /// What the last stage has taken, its corrections included.
+    pub(super) fn effort(&self) -> Effort {
+        self.effort
     }
 
     /// Age of the factorisation.
@@ -108,6 +124,7 @@ impl NewtonKrylov {
         y: &mut [f64],
         counters: &mut Counters,
     ) -> NewtonOutcome {
+        self.effort = Effort::default();
         loop {
             problem.linearise(guess, &mut self.correction);
             counters.right_hand_sides += 1;
@@ -206,6 +223,8 @@ impl NewtonKrylov {
         stage.residual(y, &mut self.correction);
         let target = Target { goal: KRYLOV_SHARE * stage.goal, reduction: KRYLOV_REDUCTION, weighted };
         let solved = self.gmres.solve(problem, norm, stage.gamma, target, &mut self.correction, counters);
+        self.effort.solves += 1;
+        self.effort.iterations += solved.iterations;
         if weighted {
             self.factorisation.iterations[1] = solved.iterations;
             if self.factorisation.age == 0 {

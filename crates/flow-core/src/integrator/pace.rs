@@ -30,6 +30,8 @@ pub struct Pace {
     pub order: usize,
     pub last_order: usize,
     pub step: f64,
+    /// Part of the size that the errors of a step would allow which the next one takes.
+    pub share: f64,
     /// Rates of the clocks of the next step, from its start, and of the last one, from its end.
     pub stretch: f64,
     pub last_stretch: f64,
@@ -62,6 +64,7 @@ impl Pace {
             order: 1,
             last_order: 1,
             step,
+            share: 1.0,
             stretch: 0.0,
             last_stretch: 0.0,
             steps_at_order: 0,

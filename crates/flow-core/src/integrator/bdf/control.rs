@@ -7,6 +7,13 @@ use crate::integrator::pace::Next;
 /// Safety factors on the error of order k − 1, k, k + 1: a change of order must pay.
 const BIAS: [f64; 3] = [4.0, 4.0, 6.0];
 
+/// A stage that takes more than one solve, and more Krylov iterations than this in them, is one of a step that is too long to pay: …
+const DEAR: usize = 10;
+/// … the next one is at most this part of what its error would allow, …
+const SHORTENED: f64 = 0.5;
+/// … and the part grows by this factor with each step that is not.
+const RECOVERY: f64 = 1.1;
+
 impl Bdf {
     /// Factor between ‖y − ỹ‖ and the local error of the fixed-leading-coefficient formula.
     pub(super) fn error_factor(&self) -> f64 {
@@ -53,6 +60,17 @@ impl Bdf {
         clock::best((present, missed), others)
     }
 
+    /// Part of what its error would allow that the next step takes. A solve that must be corrected again costs more than two steps of half
+    /// the size, whose errors are smaller besides.
+    fn share(&self) -> f64 {
+        let effort = self.newton.effort();
+        if effort.solves > 1 && effort.iterations > DEAR {
+            SHORTENED
+        } else {
+            (RECOVERY * self.pace.share).min(1.0)
+        }
+    }
+
     /// Order and step size after an accepted candidate (which is not yet in the history).
     pub(super) fn plan(&mut self, most_growth: f64) {
         let (order, (stretch, missed)) = (self.pace.order, self.best_stretch());
@@ -72,6 +90,8 @@ impl Bdf {
                 best = best.or(next(self, order + 1, missed, BIAS[2]));
             }
         }
+        self.pace.share = self.share();
+        best.growth *= self.pace.share;
         self.pace.go_on(best, most_growth, self.history.times(), |factor| factor);
     }
 }
