@@ -10,11 +10,11 @@ use crate::geometry::vectors::add_scaled;
 const MOST_ITERATIONS: usize = 4;
 const MOST_KRYLOV: usize = 60;
 /// Linear residuals are reduced to this part of the goal: their square enters the dissipation.
-const KRYLOV_SHARE: f64 = 0.5;
+const KRYLOV_SHARE: f64 = 0.8;
 /// Each linear solve reduces its residual at least by this factor, so that Newton errors fade with the flow.
 const KRYLOV_REDUCTION: f64 = 0.1;
 /// γ may change by this factor before the preconditioner is factorised again, and by that one only if one was seen to age badly.
-const GAMMA_DRIFT: f64 = 1.35;
+const GAMMA_DRIFT: f64 = 1.7;
 const GAMMA_DRIFT_OF_BRITTLE: f64 = 1.05;
 /// Iterations of a solve beyond twice those of the first one with the same factorisation which say that it ages badly.
 const BRITTLE: usize = 6;

@@ -28,7 +28,7 @@ const LOCAL_SHARE: f64 = 3.0;
 const LOOSE_POWER: f64 = 0.25;
 /// Newton's method is solved to this part of the local tolerance: the square of its error, weighted by the
 /// stiffness, enters the dissipation and with it the energy balance.
-const NEWTON_SHARE: f64 = 0.2;
+const NEWTON_SHARE: f64 = 0.4;
 
 /// Local error for which the global error is about the tolerance.
 fn local_tolerance(tolerance: f64) -> f64 {
