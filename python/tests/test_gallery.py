@@ -68,7 +68,7 @@ def test_the_limit_has_the_slopes_of_the_physics_page():
     results = incompressible_limit.run()
     slopes = {name: slope.value for name, (_, slope) in incompressible_limit.exponents(results).items()}
     expected = {"distance": 1.989, "velocity residual": 1.016, "length deficit": 0.999}
-    assert slopes == pytest.approx(expected, abs=2e-3)  # they are known to 3e-3
+    assert slopes == pytest.approx(expected, abs=1e-3)
     for epsilon, rate in ((3e-4, 0.819), (1e-4, 0.815)):
         assert incompressible_limit.decay(results[epsilon], epsilon).value == pytest.approx(rate, abs=2e-3)
 

@@ -48,7 +48,6 @@ impl Memory {
             && enough
             && self.pace.fits(&times)
             && self.pace.step > 0.0
-            && (0.0..=1.0).contains(&self.pace.share)
             && self.pace.step.is_finite()
     }
 

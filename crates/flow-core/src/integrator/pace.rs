@@ -88,11 +88,13 @@ impl Pace {
         times[0] - times[(self.order + 1).min(times.len() - 1)]
     }
 
-    /// Whether the clock runs at these times.
+    /// Whether the clock runs at these times, and steps can be a part of what their errors allow.
     pub fn fits(&self, times: &[f64]) -> bool {
         (0.0..f64::INFINITY).contains(&self.stretch)
             && self.last_stretch.is_finite()
             && self.stretch * self.reach(times) < 1.0
+            && self.share > 0.0
+            && self.share <= 1.0
     }
 
     /// After an attempt that was thrown away.
