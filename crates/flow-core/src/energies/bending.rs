@@ -82,6 +82,18 @@ impl EnergyTerm for Bending {
             Preferred::OfDensity(preferred) => add_of_density(self.rigidity, preferred, fields, jet),
         }
     }
+
+    fn set_density(&mut self, fields: Fields<'_>, jet: &mut Jet) {
+        match &self.preferred {
+            Preferred::Constant(preferred) if jet.fields() == 1 => {
+                set_alone(self.rigidity, *preferred, fields, jet);
+            }
+            _ => {
+                jet.clear(jet.order());
+                self.add_density(fields, jet);
+            }
+        }
+    }
 }
 
 fn add_constant(b: f64, preferred: f64, fields: Fields<'_>, jet: &mut Jet) {
@@ -90,6 +102,26 @@ fn add_constant(b: f64, preferred: f64, fields: Fields<'_>, jet: &mut Jet) {
     add_square(b, preferred, fields.get(0), value, first);
     if order >= Order::Hessian {
         shift(jet.second_mut(0, 0), b);
+    }
+}
+
+/// Where the curvature is the only field.
+fn set_alone(b: f64, preferred: f64, fields: Fields<'_>, jet: &mut Jet) {
+    let order = jet.order();
+    let (value, first) = jet.value_and_first_mut(0);
+    set_square(b, preferred, fields.get(0), value, first);
+    if order >= Order::Hessian {
+        jet.second_mut(0, 0).fill(b);
+    }
+}
+
+/// e = (b/2)(κ − c₀)², with its derivative.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn set_square(b: f64, preferred: f64, kappa: &[f64], value: &mut [f64], first: &mut [f64]) {
+    for ((value, first), kappa) in value.iter_mut().zip(first).zip(kappa) {
+        let excess = kappa - preferred;
+        *value = 0.5 * b * excess * excess;
+        *first = b * excess;
     }
 }
 

@@ -82,6 +82,11 @@ impl Jet {
         }
     }
 
+    /// Sets the order, for a term that sets the rest.
+    pub fn set_order(&mut self, order: Order) {
+        self.order = order;
+    }
+
     /// Derivatives that terms shall add.
     #[must_use]
     pub fn order(&self) -> Order {

@@ -71,6 +71,12 @@ pub trait EnergyTerm: Debug + Send + Sync {
     /// Scratch belongs to the term; it is sized when the term is built.
     fn add_density(&mut self, _fields: Fields<'_>, _jet: &mut Jet) {}
 
+    /// As [`EnergyTerm::add_density`] to zero, whatever is in `jet`: a term may save itself the zero.
+    fn set_density(&mut self, fields: Fields<'_>, jet: &mut Jet) {
+        jet.clear(jet.order());
+        self.add_density(fields, jet);
+    }
+
     /// Coefficient c of the part (c/2) ∫|∇_sφ|² dσ for field `field` (0: curvature, then the densities).
     fn stiffness(&self, _field: usize) -> f64 {
         0.0

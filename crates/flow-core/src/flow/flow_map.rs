@@ -7,7 +7,7 @@ use bytemuck::{cast_slice, cast_slice_mut};
 use super::curve_fields::CurveFields;
 use super::gauge::{CoMoving, Gauge, Graded, MetricRole, Workspace};
 use super::graded_energy::mean_product;
-use crate::geometry::vectors::{add_real_symbol, add_scaled, apply_real_symbol, multiply};
+use crate::geometry::vectors::{add_real_symbol, add_scaled, apply_real_symbol, multiply, multiply_into};
 use crate::geometry::{Complex64, Grading, Layout, PeriodicGrid};
 use crate::operators::{Derivative, GradedLaplacian};
 
@@ -17,6 +17,7 @@ pub struct FlowMap {
     work: Workspace,
     gauge: Arc<dyn Gauge>,
     image: Vec<Complex64>,
+    stretching: Vec<f64>,
     /// Whether nothing has been computed since the last tangential velocity.
     at_hand: bool,
 }
@@ -48,7 +49,8 @@ impl FlowMap {
         assert!(derivative.grading().is_none() || role != MetricRole::Uniform, "graded nodes in {gauge:?}");
         assert!(derivative.grading().is_some() || role != MetricRole::Field, "no metric for {gauge:?}");
         let image = vec![Complex64::default(); grid.modes()];
-        Self { work: Workspace::new(layout, grid, derivative), gauge, image, at_hand: false }
+        let stretching = vec![0.0; layout.nodes()];
+        Self { work: Workspace::new(layout, grid, derivative), gauge, image, stretching, at_hand: false }
     }
 
     /// The gauge.
@@ -89,13 +91,21 @@ impl FlowMap {
     /// `by_length` = ∂𝓕/∂|Γ| at fixed K and m. f is a density in L²(dσ). Where the metric is a field, the
     /// derivative by it is the last spectrum, and that by its mean `by_length`.
     pub fn force(&mut self, at: &CurveFields, gradient: &[Complex64], by_length: f64, force: &mut [f64]) {
-        self.stretching(at, gradient, by_length, force);
-        self.complete_force(at, gradient, force);
+        let mut stretching = std::mem::take(&mut self.stretching);
+        self.stretching(at, gradient, by_length, &mut stretching);
+        self.complete_force(at, gradient, &stretching, force);
+        self.stretching = stretching;
     }
 
-    /// The force where `force` holds the [`FlowMap::stretching`].
-    pub fn complete_force(&mut self, at: &CurveFields, gradient: &[Complex64], force: &mut [f64]) {
-        multiply(force, at.at_nodes(0));
+    /// The force of a gradient whose [`FlowMap::stretching`] is known.
+    pub fn complete_force(
+        &mut self,
+        at: &CurveFields,
+        gradient: &[Complex64],
+        stretching: &[f64],
+        force: &mut [f64],
+    ) {
+        multiply_into(force, stretching, at.at_nodes(0));
         self.at_hand = false;
         let Workspace { grid, derivative, graded, values, spectrum, .. } = &mut self.work;
         let p = &gradient[..grid.modes()];

@@ -159,10 +159,14 @@ impl EnergySum {
 
     fn evaluate(&mut self, at: &CurveFields, order: Order, gradient: &mut IntrinsicGradient) -> f64 {
         let (nodes, modes, length) = (self.layout.nodes(), self.grid.modes(), at.length());
-        self.jet.clear(order);
-        for term in self.terms.iter_mut().filter(|term| term.has_density()) {
-            term.add_density(Fields::new(nodes, at.pointwise()), &mut self.jet);
+        let fields = Fields::new(nodes, at.pointwise());
+        let mut densities = self.terms.iter_mut().filter(|term| term.has_density());
+        self.jet.set_order(order);
+        match densities.next() {
+            Some(first) => first.set_density(fields, &mut self.jet),
+            None => self.jet.clear(order),
         }
+        densities.for_each(|term| term.add_density(fields, &mut self.jet));
         let of_length = self.of_length(length);
         if let Some(moving) = &mut self.moving {
             let (terms, stiffness) = (&mut self.terms, &self.stiffness);

@@ -19,9 +19,17 @@ impl GradientFlow {
         self.spectral_hessian_product(v);
         self.map.force(&self.frozen, &self.gradient.spectra, self.gradient.by_length, &mut self.force);
         self.add_tension();
+        self.drive_frozen();
+        self.write_rates(true, out);
+    }
+
+    /// Velocity at the linearisation, in exchange for the force at hand.
+    pub(super) fn drive_frozen(&mut self) {
+        if self.frozen_mobility.is_identity() {
+            return std::mem::swap(&mut self.force, &mut self.velocity);
+        }
         let mobility = self.frozen_mobility.as_mut();
         drive(mobility, self.frozen_fault, &self.frozen, &self.force, &mut self.velocity);
-        self.write_rates(true, out);
     }
 
     /// Takes the tension at the linearisation; none where the energy depends on positions, see (F20).

@@ -189,10 +189,9 @@ impl GradientFlow {
         if self.energy.depends_on_positions() {
             self.descend(true); // the tension is left out there
         } else {
-            self.force.copy_from_slice(&self.frozen_stretching);
-            self.map.complete_force(&self.frozen, &self.gradient.spectra, &mut self.force);
-            let mobility = self.frozen_mobility.as_mut();
-            drive(mobility, self.frozen_fault, &self.frozen, &self.force, &mut self.velocity);
+            let (frozen, gradient) = (&self.frozen, &self.gradient.spectra);
+            self.map.complete_force(frozen, gradient, &self.frozen_stretching, &mut self.force);
+            self.drive_frozen();
         }
         self.write_rates(true, rate);
     }

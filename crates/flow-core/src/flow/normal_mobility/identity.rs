@@ -12,6 +12,10 @@ impl NormalMobility for Identity {
         "identity"
     }
 
+    fn is_identity(&self) -> bool {
+        true
+    }
+
     fn apply(&mut self, _: &CurveFields, force: &[f64], velocity: &mut [f64]) {
         velocity.copy_from_slice(force);
     }

@@ -42,6 +42,11 @@ pub trait NormalMobility: Debug + Send + Sync {
     /// Name in scenes.
     fn name(&self) -> &'static str;
 
+    /// Whether V = f.
+    fn is_identity(&self) -> bool {
+        false
+    }
+
     /// Prepares 𝓑 at the state `at`, without allocating.
     ///
     /// # Errors

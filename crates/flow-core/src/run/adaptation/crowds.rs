@@ -50,10 +50,13 @@ impl Adaptation {
             return Some(best);
         }
         let most = MOST_NODES.min(MOST_GROWTH * nodes);
-        while best.0 > aim && best.1.mesh.nodes < most {
-            best = attempt(size_above(NEXT * best.1.mesh.nodes as f64))?;
+        if best.0 > aim {
+            while best.0 > aim && best.1.mesh.nodes < most {
+                best = attempt(size_above(NEXT * best.1.mesh.nodes as f64))?;
+            }
+            return Some(best); // the fewer ones have been tried
         }
-        while best.0 <= aim && best.1.mesh.nodes > LEAST_NODES {
+        while best.1.mesh.nodes > LEAST_NODES {
             match attempt(size_above(best.1.mesh.nodes as f64 / NEXT.powi(2))) {
                 Some(fewer) if fewer.0 <= aim => best = fewer,
                 _ => break,
