@@ -2,7 +2,7 @@
 
 use curveflow_tests::{scene, shipped};
 use flow_core::run::tradeoff::{Ladder, tradeoff};
-use flow_core::run::{Quiet, Record, StopReason, run};
+use flow_core::run::{Quiet, Record, Scene, StopReason, run};
 
 fn automatic(name: &str, changes: &[(&str, &str)]) -> Record {
     let mut all = vec![("accuracy.nodes", "auto")];
@@ -58,6 +58,22 @@ fn nodes_crowd_at_fronts_and_follow_them() {
     assert!((last.energy - 6.574_317_4).abs() < 1e-5, "{}", last.energy);
     let at = |f: fn(f64, f64) -> f64, start| last.metric.iter().copied().fold(start, f);
     assert!(at(f64::max, 0.0) > 4.0 * at(f64::min, f64::INFINITY), "the nodes crowd");
+}
+
+/// A solution that becomes smooth needs ever fewer nodes, down to the least, and no crowds.
+#[test]
+fn every_scene_runs_on_nodes_that_follow_it() {
+    for (name, _) in Scene::shipped().iter().filter(|(name, _)| *name != "three_fold_sharp") {
+        for tolerance in [1e-3, 1e-5] {
+            let shown = tolerance.to_string();
+            let [graded, uniform] = ["graded", "scaled-arc-length"]
+                .map(|gauge| automatic(name, &[("flow.gauge", gauge), ("accuracy.tolerance", &shown)]));
+            assert!(!matches!(graded.stop_reason, StopReason::Failed(_)), "{name}: {:?}", graded.stop_reason);
+            let energy = |record: &Record| record.frames.last().expect("a frame").energy;
+            let difference = (energy(&graded) / energy(&uniform) - 1.0).abs();
+            assert!(difference < 10.0 * tolerance, "{name} at {shown}: {difference:.1e}");
+        }
+    }
 }
 
 /// Six fronts from the start, whatever ε.

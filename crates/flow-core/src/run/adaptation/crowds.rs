@@ -56,8 +56,8 @@ impl Adaptation {
             }
             return Some(best); // the fewer ones have been tried
         }
-        while best.1.mesh.nodes > LEAST_NODES {
-            match attempt(size_above(best.1.mesh.nodes as f64 / NEXT.powi(2))) {
+        while let Some(nodes) = fewer(best.1.mesh.nodes) {
+            match attempt(nodes) {
                 Some(fewer) if fewer.0 <= aim => best = fewer,
                 _ => break,
             }
@@ -66,8 +66,28 @@ impl Adaptation {
     }
 }
 
+/// The number of nodes below `nodes` that is tried next; none below the least.
+fn fewer(nodes: usize) -> Option<usize> {
+    // Above the ratio there may be no other size than `nodes` itself.
+    let fewer = [NEXT.powi(2), 2.0].map(|ratio| size_above(nodes as f64 / ratio).max(LEAST_NODES));
+    fewer.into_iter().find(|fewer| *fewer < nodes)
+}
+
 /// Whether a grading differs enough from the uniform one.
 fn is_spread(samples: &[f64]) -> bool {
     let least = samples.iter().copied().fold(f64::INFINITY, f64::min);
     samples.iter().any(|w| *w > LEAST_SPREAD * least)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fewer_nodes_are_tried_down_to_the_least() {
+        let tried: Vec<usize> = std::iter::successors(Some(MOST_NODES), |nodes| fewer(*nodes)).collect();
+        assert!(tried.windows(2).all(|pair| pair[1] < pair[0] && 3 * pair[1] >= pair[0]), "{tried:?}");
+        assert_eq!(tried.last(), Some(&LEAST_NODES));
+        assert_eq!(fewer(48), Some(LEAST_NODES));
+    }
 }
