@@ -2,7 +2,7 @@
 
 use curveflow_tests::shipped;
 use flow_core::run::tradeoff::{Ladder, tradeoff};
-use flow_core::run::{Quiet, Scene};
+use flow_core::run::{Quiet, Scene, run};
 
 /// Least and largest ratio of the error that is measured to the one asked for: 0.05 and 6.0 where the table of
 /// `benches/README.md` was made. Rounding tips step sizes, and a flow that multiplies errors makes much of that, so there is a
@@ -25,6 +25,19 @@ fn check(name: &str) {
         errors.windows(2).all(|pair| pair[1].1 <= pair[0].1),
         "{name}: a tighter tolerance is worse: {errors:?}"
     );
+}
+
+/// What the solves of past stages leave is no error of a step: on twice the nodes that the tolerance needs, a run took ten times
+/// the steps while it was counted as one.
+#[test]
+fn solves_do_not_shorten_the_steps() {
+    let steps = |nodes: &str| {
+        let changes = [("accuracy.nodes", nodes), ("accuracy.tolerance", "1e-8"), ("time.end", "0.1")];
+        run(&shipped("blend", &changes), &mut Quiet).expect("a good scene").counters.steps
+    };
+    let (few, many) = (steps("192"), steps("384"));
+    println!("{few} and {many} steps");
+    assert!(many < 4 * few, "{few} and {many} steps");
 }
 
 #[test]

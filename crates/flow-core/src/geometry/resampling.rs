@@ -1,6 +1,9 @@
 //! Trigonometric polynomials on other grids and at scattered points.
 
+use std::cell::RefCell;
+use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
 
 use multiversion::multiversion;
 
@@ -53,7 +56,7 @@ pub struct ScatteredPoints {
     nodes: usize,
     fine: PeriodicGrid,
     /// One over the coefficients of the kernel, by mode.
-    deconvolution: Vec<f64>,
+    deconvolution: Arc<[f64]>,
     /// First fine node of each point, and the weights from there on.
     points: Vec<(usize, [f64; WIDTH])>,
     spectrum: Vec<Complex64>,
@@ -67,7 +70,7 @@ impl ScatteredPoints {
         let fine = PeriodicGrid::new((2 * nodes).max(2 * WIDTH));
         let mut points = Self {
             nodes,
-            deconvolution: deconvolution(nodes, fine.nodes()),
+            deconvolution: kept_deconvolution(nodes, fine.nodes()),
             points: Vec::with_capacity(places.len()),
             spectrum: vec![Complex64::default(); fine.modes()],
             values: vec![0.0; fine.nodes()],
@@ -92,7 +95,7 @@ impl ScatteredPoints {
     /// Values at the points of the polynomial with the coefficients `spectrum`.
     pub fn values(&mut self, spectrum: &[Complex64]) -> Vec<f64> {
         resample_spectrum(self.nodes, spectrum, self.fine.nodes(), &mut self.spectrum);
-        for (value, factor) in self.spectrum.iter_mut().zip(&self.deconvolution) {
+        for (value, factor) in self.spectrum.iter_mut().zip(&*self.deconvolution) {
             *value *= *factor;
         }
         self.fine.synthesise(&self.spectrum, &mut self.values);
@@ -120,6 +123,24 @@ fn weights(distance: f64) -> [f64; WIDTH] {
         *value = exp(SHAPE * (height.sqrt() - 1.0));
     }
     std::array::from_fn(|i| kernel[i])
+}
+
+/// Numbers of nodes whose coefficients are kept.
+const MOST_KEPT: usize = 64;
+
+thread_local! {
+    /// A run that changes its nodes tries the same few numbers again and again; the coefficients take an eighth of a trial.
+    static KEPT: RefCell<HashMap<[usize; 2], Arc<[f64]>>> = RefCell::default();
+}
+
+/// [`deconvolution`], kept.
+fn kept_deconvolution(nodes: usize, fine: usize) -> Arc<[f64]> {
+    KEPT.with_borrow_mut(|kept| {
+        if kept.len() >= MOST_KEPT {
+            kept.clear();
+        }
+        kept.entry([nodes, fine]).or_insert_with(|| deconvolution(nodes, fine).into()).clone()
+    })
 }
 
 /// One over the coefficients of the kernel on a grid of `fine` nodes, for the modes of one of `nodes`.

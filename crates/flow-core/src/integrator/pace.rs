@@ -15,6 +15,12 @@ const LEAST: f64 = 0.5;
 /// Growth by the clock at most, where that is not time itself: the size of steps that grow with the time is to change smoothly.
 const MOST_BY_CLOCK: f64 = 1.5;
 
+/// Stages are solved better by the first factor after an attempt whose error was too large, down to the second; by the third their
+/// error grows back with each accepted step.
+const BETTER: f64 = 0.25;
+const BEST: f64 = 0.05;
+const WORSE: f64 = 1.1;
+
 /// Steps of the scale on an octave.
 const SCALE: f64 = 16.0;
 
@@ -32,6 +38,8 @@ pub struct Pace {
     pub step: f64,
     /// Part of the size that the errors of a step would allow which the next one takes.
     pub share: f64,
+    /// Part of the usual error to which the stages are solved.
+    pub exactness: f64,
     /// Rates of the clocks of the next step, from its start, and of the last one, from its end.
     pub stretch: f64,
     pub last_stretch: f64,
@@ -65,6 +73,7 @@ impl Pace {
             last_order: 1,
             step,
             share: 1.0,
+            exactness: 1.0,
             stretch: 0.0,
             last_stretch: 0.0,
             steps_at_order: 0,
@@ -95,6 +104,8 @@ impl Pace {
             && self.stretch * self.reach(times) < 1.0
             && self.share > 0.0
             && self.share <= 1.0
+            && self.exactness > 0.0
+            && self.exactness <= 1.0
     }
 
     /// After an attempt that was thrown away.
@@ -107,8 +118,15 @@ impl Pace {
         }
     }
 
+    /// After an attempt whose error was too large: it may be what the solves of the past stages have left, which a prediction
+    /// multiplies and no shorter step makes smaller.
+    pub fn solve_better(&mut self) {
+        self.exactness = (BETTER * self.exactness).max(BEST);
+    }
+
     /// A step is accepted.
     pub fn accept(&mut self) {
+        self.exactness = (WORSE * self.exactness).min(1.0);
         self.last_order = self.order;
         self.steps_at_order += 1;
     }

@@ -37,11 +37,6 @@ fn local_tolerance(tolerance: f64) -> f64 {
     LOCAL_SHARE * tolerance * relative.powf(power)
 }
 
-/// The stage y = `constant` + γf(y) of a step with local errors below `tolerance`.
-fn stage(gamma: f64, constant: &[f64], tolerance: f64) -> Stage<'_> {
-    Stage { gamma, constant, goal: NEWTON_SHARE * tolerance }
-}
-
 /// The method with its state.
 #[derive(Clone, Debug)]
 pub struct Bdf {
@@ -150,6 +145,11 @@ impl Bdf {
         clock.at(end) * clock.slope(end) / self.leading_coefficient()
     }
 
+    /// Error to which stages are solved.
+    fn goal(&self) -> f64 {
+        NEWTON_SHARE * self.pace.exactness * self.tolerance
+    }
+
     fn candidate_time(&self) -> f64 {
         self.history.times()[0] + self.pace.step
     }
@@ -203,7 +203,7 @@ impl Stepper for Bdf {
         let shifted: [f64; MOST_POINTS] =
             std::array::from_fn(|i| weights.value[i] - gamma * weights.derivative[i]);
         self.history.combine(&shifted, points, &mut self.constant);
-        let stage = stage(gamma, &self.constant, self.tolerance);
+        let stage = Stage { gamma, constant: &self.constant, goal: self.goal() };
         let outcome =
             self.newton.solve(problem, &self.norm, &stage, &self.predicted, &mut self.candidate, counters);
         if outcome == NewtonOutcome::Failed {
@@ -219,6 +219,7 @@ impl Stepper for Bdf {
         let error = self.error_factor() * self.norm.norm(&self.difference);
         if error > self.tolerance {
             let growth = self.growth(error, self.pace.order, 2.0);
+            self.pace.solve_better();
             self.pace.fail(growth.clamp(0.2, 0.9));
             return Err(Rejection::Error);
         }
@@ -228,7 +229,8 @@ impl Stepper for Bdf {
     fn settle(&mut self, problem: &mut dyn Problem) -> bool {
         let gamma = self.gamma();
         problem.finished_rate(&self.candidate, &mut self.difference);
-        stage(gamma, &self.constant, self.tolerance).residual(&self.candidate, &mut self.difference);
+        let stage = Stage { gamma, constant: &self.constant, goal: self.goal() };
+        stage.residual(&self.candidate, &mut self.difference);
         let settles = problem.settle(gamma, &mut self.difference);
         if settles {
             add_scaled(&mut self.candidate, 1.0, &self.difference);
@@ -242,7 +244,7 @@ impl Stepper for Bdf {
 
     fn polish(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> bool {
         let gamma = self.gamma();
-        let stage = stage(gamma, &self.constant, self.tolerance);
+        let stage = Stage { gamma, constant: &self.constant, goal: self.goal() };
         self.newton.correct(problem, &self.norm, &stage, &mut self.candidate, counters).is_some()
     }
 
