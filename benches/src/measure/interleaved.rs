@@ -27,7 +27,7 @@ fn holes(seed: u64) -> Vec<Vec<u8>> {
     let mut state = seed;
     let mut block = || {
         state = state.wrapping_mul(MULTIPLIER).wrapping_add(1);
-        vec![0; MOST_BYTES * (state >> 48) as usize >> 16]
+        vec![0; (MOST_BYTES * (state >> 48) as usize) >> 16]
     };
     let mut blocks: Vec<Vec<u8>> = (0..2 * HOLES).map(|_| block()).collect();
     let mut kept = false;
