@@ -15,9 +15,9 @@ from pathlib import Path
 
 from cases import CASES
 from solvers import ROOT, SOLVERS, integrate
-from tables import WHOLE, case_table, summary
+from tables import SUNDIALS, WHOLE, case_table, summary
 
-COLUMNS = [name for solver in SOLVERS for name in ([solver, WHOLE] if solver == "CVODE" else [solver])]
+COLUMNS = [name for solver in SOLVERS for name in ([solver, WHOLE] if solver == SUNDIALS else [solver])]
 TOLERANCES = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8]
 REPEATS = 3
 README = ROOT / "benches" / "README.md"

@@ -2,11 +2,11 @@
 
 import math
 
-WHOLE = "CVODE, whole call"
+SUNDIALS = "CVODE"
+WHOLE = f"{SUNDIALS}, whole call"
 LEVELS = [1e-3, 1e-5, 1e-7]  # errors at which times are compared
 LISTED = [1e-3, 1e-5, 1e-7]  # tolerances of which the runs are listed
 REFERENCE = "Curveflow"
-SUNDIALS = "CVODE"
 COUNTS = ["steps", "right-hand sides", "products", "solves"]
 
 
@@ -37,7 +37,7 @@ def run_line(run, times):
 
 
 def summary(results, solvers):
-    """Time at equal error of each solver, and who is ahead of Curveflow."""
+    """Time at equal error of each solver, and how far the best peer is behind."""
     text = "| scene | t | error | " + " | ".join(solvers) + " | best peer / Curveflow |\n"
     text += "| --- | ---: | ---: |" + " ---: |" * (len(solvers) + 1) + "\n"
     for measured in results:
@@ -57,17 +57,17 @@ def summary_line(measured, index, time, level, solvers):
 
 def lead(measured, index, level):
     """The whole call of the best peer over the better of both runs of Curveflow: on fixed nodes, and on its own."""
-    times = {True: [], False: []}
+    own, peers = [], []
     for solver in dict.fromkeys(run["solver"] for run in measured["runs"]):
         key = "whole_seconds" if solver.startswith(SUNDIALS) else "seconds"
         found = time_at(measured, solver, index, level, key)
         if found:
-            times[solver.startswith(REFERENCE)].append(found[0])
-    if not times[True]:
+            (own if solver.startswith(REFERENCE) else peers).append(found[0])
+    if not own:
         return "not reached"
-    if not times[False]:
+    if not peers:
         return "no peer there"
-    ratio = significant(min(times[False]) / min(times[True]), 2)
+    ratio = significant(min(peers) / min(own), 2)
     return f"**{ratio}**" if float(ratio) < 3 else ratio
 
 

@@ -13,6 +13,7 @@ mod gradation;
 mod grading;
 mod grading_error;
 mod grid;
+mod kept;
 mod measures;
 mod metric_grading;
 mod real_transform;

@@ -6,7 +6,6 @@
 #![allow(clippy::inline_always)] // these bodies must be compiled inside each version of the loops
 
 use std::cell::RefCell;
-use std::collections::HashMap;
 use std::f64::consts::TAU;
 use std::fmt;
 use std::sync::Arc;
@@ -15,6 +14,7 @@ use multiversion::multiversion;
 use rustfft::{Fft, FftPlanner};
 
 use super::grid::Complex64;
+use super::kept::Kept;
 
 /// Plans and scratch for one number of values.
 #[derive(Clone)]
@@ -34,25 +34,17 @@ impl fmt::Debug for RealTransform {
     }
 }
 
-/// Numbers of values whose plans are kept.
-const MOST_PLANS: usize = 64;
-
 thread_local! {
     /// A run that changes its nodes comes back to the same few numbers, and each of its operators transforms; a plan takes
     /// longer than a step.
-    static PLANS: RefCell<HashMap<usize, RealTransform>> = RefCell::default();
+    static PLANS: RefCell<Kept<RealTransform>> = RefCell::default();
 }
 
 impl RealTransform {
     /// A transform of `values` ≥ 2 values.
     #[must_use]
     pub fn new(values: usize) -> Self {
-        PLANS.with_borrow_mut(|plans| {
-            if plans.len() >= MOST_PLANS {
-                plans.clear();
-            }
-            plans.entry(values).or_insert_with(|| Self::planned(values)).clone()
-        })
+        PLANS.with_borrow_mut(|plans| plans.of(values, || Self::planned(values)))
     }
 
     fn planned(values: usize) -> Self {

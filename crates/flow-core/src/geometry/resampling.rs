@@ -1,7 +1,6 @@
 //! Trigonometric polynomials on other grids and at scattered points.
 
 use std::cell::RefCell;
-use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
@@ -9,6 +8,7 @@ use multiversion::multiversion;
 
 use super::grading::Grading;
 use super::grid::{Complex64, PeriodicGrid};
+use super::kept::Kept;
 use crate::expression::vector_math::exp;
 
 /// The coefficients on a grid of `to` nodes of the polynomial with the coefficients `spectrum` on `nodes` nodes. Modes that the
@@ -68,9 +68,10 @@ impl ScatteredPoints {
     #[must_use]
     pub fn new(nodes: usize, places: &[f64]) -> Self {
         let fine = PeriodicGrid::new((2 * nodes).max(2 * WIDTH));
+        let coefficients = || deconvolution(nodes, fine.nodes()).into();
         let mut points = Self {
             nodes,
-            deconvolution: kept_deconvolution(nodes, fine.nodes()),
+            deconvolution: DECONVOLUTIONS.with_borrow_mut(|kept| kept.of(nodes, coefficients)),
             points: Vec::with_capacity(places.len()),
             spectrum: vec![Complex64::default(); fine.modes()],
             values: vec![0.0; fine.nodes()],
@@ -125,22 +126,9 @@ fn weights(distance: f64) -> [f64; WIDTH] {
     std::array::from_fn(|i| kernel[i])
 }
 
-/// Numbers of nodes whose coefficients are kept.
-const MOST_KEPT: usize = 64;
-
 thread_local! {
     /// A run that changes its nodes tries the same few numbers again and again; the coefficients take an eighth of a trial.
-    static KEPT: RefCell<HashMap<[usize; 2], Arc<[f64]>>> = RefCell::default();
-}
-
-/// [`deconvolution`], kept.
-fn kept_deconvolution(nodes: usize, fine: usize) -> Arc<[f64]> {
-    KEPT.with_borrow_mut(|kept| {
-        if kept.len() >= MOST_KEPT {
-            kept.clear();
-        }
-        kept.entry([nodes, fine]).or_insert_with(|| deconvolution(nodes, fine).into()).clone()
-    })
+    static DECONVOLUTIONS: RefCell<Kept<Arc<[f64]>>> = RefCell::default();
 }
 
 /// One over the coefficients of the kernel on a grid of `fine` nodes, for the modes of one of `nodes`.

@@ -5,6 +5,7 @@
 
 mod alone;
 mod by_term;
+mod density;
 mod stiffness;
 
 use super::curve_fields::CurveFields;
@@ -158,15 +159,8 @@ impl EnergySum {
     }
 
     fn evaluate(&mut self, at: &CurveFields, order: Order, gradient: &mut IntrinsicGradient) -> f64 {
-        let (nodes, modes, length) = (self.layout.nodes(), self.grid.modes(), at.length());
-        let fields = Fields::new(nodes, at.pointwise());
-        let mut densities = self.terms.iter_mut().filter(|term| term.has_density());
-        self.jet.set_order(order);
-        match densities.next() {
-            Some(first) => first.set_density(fields, &mut self.jet),
-            None => self.jet.clear(order),
-        }
-        densities.for_each(|term| term.add_density(fields, &mut self.jet));
+        let (modes, length) = (self.grid.modes(), at.length());
+        self.set_density(at, order);
         let of_length = self.of_length(length);
         if let Some(moving) = &mut self.moving {
             let (terms, stiffness) = (&mut self.terms, &self.stiffness);
