@@ -26,6 +26,18 @@ fn bending_drives_a_circle_as_the_fourth_root_of_time() {
     assert_eq!(record.stop_reason, StopReason::EndTime);
 }
 
+/// From the rate alone they would be 7, 13 and 19, the first of them a tenth as long.
+#[test]
+fn steps_start_with_the_slope_of_the_rate() {
+    for (tolerance, most) in [("1e-3", 5), ("1e-5", 11), ("1e-7", 16)] {
+        let record = run(&shipped("circle", &[("accuracy.tolerance", tolerance)]));
+        assert_eq!(record.steps.order[0], 3, "order of the first corrector");
+        let steps = record.counters.steps;
+        assert!(steps <= most, "{steps} steps at {tolerance}");
+        assert_close(last(&record).length, TAU * 3.0_f64.powf(0.25), tolerance.parse().unwrap());
+    }
+}
+
 #[test]
 fn tension_shortens_a_circle_as_the_square_root_of_time() {
     let record = run(&scene(

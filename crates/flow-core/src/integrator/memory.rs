@@ -33,7 +33,7 @@ impl Memory {
         let orders = 1..MOST_POINTS;
         let times: Vec<f64> = self.points.iter().map(|(time, _)| *time).collect();
         let enough = match &self.exponential {
-            Some(own) => own.fits(points, size) && points >= self.pace.order,
+            Some(own) => own.fits(points, size) && points >= self.pace.order.max(2),
             None => points > self.pace.order.max(self.pace.last_order) && self.pace.order < MOST_POINTS - 1,
         };
         falling
@@ -51,13 +51,11 @@ impl Memory {
             && self.pace.step.is_finite()
     }
 
-    /// For the implicit method to go on from here; from the start it needs a state before.
+    /// For the implicit method to go on from here.
     #[must_use]
     pub fn implicit(mut self) -> Self {
-        let Some(own) = self.exponential.take() else { return self };
-        if let ([(time, state)], [rate, ..]) = (&self.points[..], &own.rates[..]) {
-            let before = state.iter().zip(rate).map(|(y, rate)| y - self.pace.step * rate).collect();
-            self.points.push((time - self.pace.step, before));
+        if self.exponential.take().is_none() {
+            return self;
         }
         let most = bdf::HIGHEST_ORDER.min(self.points.len() - 1);
         self.pace = Pace { steps_at_order: 0, ..self.pace.of_order_at_most(most) };

@@ -1,11 +1,9 @@
 //! The method of a run: exponential while that pays, implicit from then on.
 
 use super::bdf::Bdf;
-use super::exponential::{Exponential, ExponentialMemory};
+use super::exponential::{self, Exponential};
 use super::memory::Memory;
-use super::newton::Factorisation;
-use super::pace::Pace;
-use super::{Counters, ErrorNorm, INTEGRALS, Integrals, LinearPart, Problem, Rejection, Stepper};
+use super::{Counters, INTEGRALS, Integrals, LinearPart, Problem, Rejection, Stepper};
 
 /// Either of the two multistep methods. Both hold past states, so that the change from one to the other costs nothing.
 #[derive(Clone, Debug)]
@@ -35,19 +33,9 @@ impl Multistep {
             let bdf = Bdf::starting(problem, y, integrals, tolerance, counters);
             return Self { method: Method::Implicit(Box::new(bdf)), tolerance };
         }
-        let mut norm = ErrorNorm::new(problem);
-        norm.rescale(problem, y);
-        let mut rate = vec![0.0; y.len()];
-        problem.rate(y, &mut rate);
-        counters.right_hand_sides += 2;
+        counters.right_hand_sides += 1; // the linearisation takes as much
         counters.factorisations += 1;
-        let memory = Memory {
-            points: vec![(integrals.time(), y.to_vec())],
-            integrals,
-            factorisation: Factorisation::default(),
-            pace: Pace::starting(first_step(tolerance, norm.norm(&rate))),
-            exponential: Some(ExponentialMemory::start(rate, part)),
-        };
+        let memory = exponential::start(problem, (y, part), integrals, tolerance, counters);
         Self::resume(problem, memory, tolerance)
     }
 
@@ -91,11 +79,6 @@ impl Multistep {
             Method::Implicit(method) => &mut **method,
         }
     }
-}
-
-/// A first step that moves the state by a small part of the tolerance's root: order 1 has error O(h²).
-pub(super) fn first_step(tolerance: f64, rate: f64) -> f64 {
-    0.1 * tolerance.sqrt() / rate.max(1e-280)
 }
 
 impl Stepper for Multistep {

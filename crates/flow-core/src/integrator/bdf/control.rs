@@ -14,6 +14,11 @@ const SHORTENED: f64 = 0.5;
 /// … and the part grows by this factor with each step that is not.
 const RECOVERY: f64 = 1.1;
 
+/// A first step that moves the state by a small part of the tolerance's root: order 1 has error O(h²).
+pub(super) fn first_step(tolerance: f64, rate: f64) -> f64 {
+    0.1 * tolerance.sqrt() / rate.max(1e-280)
+}
+
 impl Bdf {
     /// Factor between ‖y − ỹ‖ and the local error of the fixed-leading-coefficient formula.
     pub(super) fn error_factor(&self) -> f64 {

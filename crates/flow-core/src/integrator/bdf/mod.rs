@@ -12,11 +12,11 @@ use super::error_norm::ErrorNorm;
 use super::history::{History, MOST_POINTS, Weights, lagrange};
 use super::integrals::Integrals;
 use super::memory::Memory;
-use super::multistep::first_step;
 use super::newton::{Factorisation, NewtonKrylov, NewtonOutcome, Stage};
 use super::pace::Pace;
 use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
 use crate::geometry::vectors::add_scaled;
+use control::first_step;
 
 /// Highest order of the formulas that are stable enough.
 pub(super) const HIGHEST_ORDER: usize = 5;

@@ -1,4 +1,4 @@
-//! Start of the method, and what it takes to go on.
+//! What it takes for the method to go on.
 
 use serde::{Deserialize, Serialize};
 
@@ -35,9 +35,9 @@ pub struct ExponentialMemory {
 }
 
 impl ExponentialMemory {
-    /// Of a method at its start, at one state with its rate.
-    pub(in crate::integrator) fn start(rate: Vec<f64>, part: LinearPart) -> Self {
-        Self { rates: vec![rate], part, part_age: 0, limited: 0 }
+    /// Of a method that has taken Λ = `part` from its last state, with the rates at its states.
+    pub(super) fn new(rates: Vec<Vec<f64>>, part: LinearPart) -> Self {
+        Self { rates, part, part_age: 0, limited: 0 }
     }
 
     /// Takes Λ anew from `problem` at `state`; false if it has none.

@@ -10,6 +10,7 @@ mod control;
 mod memory;
 mod moments;
 mod polynomials;
+mod start;
 mod substitution;
 mod sums;
 
@@ -23,6 +24,7 @@ use crate::geometry::vectors::add_scaled_product;
 pub use memory::ExponentialMemory;
 use moments::{Moments, moments_at};
 use polynomials::{Coefficients, of_last_point, of_new_value};
+pub(super) use start::start;
 use substitution::{StepClock, Substitution};
 use sums::Correction;
 
