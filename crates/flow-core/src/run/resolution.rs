@@ -54,8 +54,8 @@ pub fn least_resolved(layout: Layout, state: &[f64], nodes: usize, family: Deriv
     worst
 }
 
-/// Nodes, at the same parameters, on which at most the part `aim` of the spectral `state` is not resolved: a fast size, a guess
-/// if more are needed than the state has.
+/// Nodes, at the same parameters, on which at most the part `aim` of the spectral `state` is not resolved: a fast size. If more are
+/// needed than the state has it is a guess, but where differences alone miss something, whose error is known on any nodes.
 pub fn needed_nodes(layout: Layout, state: &[f64], aim: f64, family: DerivativeFamily) -> usize {
     let nodes = layout.nodes();
     let part = |nodes: usize| unresolved(layout, state, nodes, family);
@@ -63,6 +63,13 @@ pub fn needed_nodes(layout: Layout, state: &[f64], aim: f64, family: DerivativeF
     if now <= aim {
         let fewer = sizes().take_while(|size| *size < nodes).find(|size| part(*size) <= aim);
         return fewer.unwrap_or(nodes);
+    }
+    if let Some(order) = family.order()
+        && unresolved(layout, state, nodes, DerivativeFamily::Fourier) <= aim
+    {
+        let more = sizes().skip_while(|size| *size <= nodes).find(|size| part(*size) <= aim);
+        let beyond = |most: usize| most as f64 * (part(most) / aim).powf(1.0 / f64::from(order));
+        return more.unwrap_or_else(|| beyond(2 * MOST_NODES).ceil() as usize);
     }
     // As if the spectrum fell on as it does over the last modes.
     let before = 3 * nodes / 4;
@@ -163,5 +170,18 @@ mod tests {
         let needed = |family| needed_nodes(layout, &state, 1e-6, family);
         assert!(needed(DerivativeFamily::Central8) > needed(DerivativeFamily::Fourier));
         assert!(needed(DerivativeFamily::Central4) > needed(DerivativeFamily::Central8));
+    }
+
+    #[test]
+    fn what_differences_need_is_known_from_few_nodes_and_beyond_the_most() {
+        let needed = |nodes, aim| {
+            let (layout, state) = falling(nodes, 0.2);
+            needed_nodes(layout, &state, aim, DerivativeFamily::Central2)
+        };
+        assert_eq!(needed(256, 1e-5), needed(8192, 1e-5));
+        assert!(needed(256, 1e-5) > 2048, "{}", needed(256, 1e-5));
+        // An error of order 2.
+        let ratio = needed(512, 1e-12) as f64 / needed(512, 1e-10) as f64;
+        assert!(needed(512, 1e-10) > MOST_NODES && (ratio / 10.0 - 1.0).abs() < 0.1, "{ratio}");
     }
 }

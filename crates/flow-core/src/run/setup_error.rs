@@ -27,7 +27,8 @@ pub enum SetupError {
     /// The automatic choice found no number of nodes.
     #[error(
         "`accuracy.nodes` = \"auto\": the scene needs about {needed:.0} nodes, and at most {most} are allowed; make \
-         epsilon or delta larger, smooth the curve, or set a number of nodes"
+         epsilon or delta larger, smooth the curve, take a looser tolerance or a derivative of higher order, or set a number of \
+         nodes"
     )]
     TooManyNodes { needed: f64, most: usize },
     /// A density is NaN or infinite.
