@@ -55,6 +55,14 @@ fn what_is_written_is_read_back() {
     round_trip(&Record { seconds: Seconds::default(), ..synthetic::record(2, 16, &[]) }, &path);
 }
 
+/// The values of each step are the most of such a file, which holds little besides.
+#[test]
+fn runs_of_many_steps_and_few_frames_are_read_back() {
+    let folder = Folder::new("steps");
+    let steps = synthetic::record(20_000, 8, &[]).steps;
+    round_trip(&Record { steps, ..synthetic::record(2, 16, &["protein"]) }, &folder.file("out.h5"));
+}
+
 #[test]
 fn the_file_knows_how_long_it_took_to_make() {
     let folder = Folder::new("timed");

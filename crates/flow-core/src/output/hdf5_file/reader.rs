@@ -128,12 +128,16 @@ impl Content {
     }
 
     fn frames(&self, record: &Record) -> Result<Vec<Frame>, Failure> {
-        let count = self.values::<f64>("time", None)?.len();
         let nodes = self.values::<f64>("parameter", None)?.len();
-        let values: Result<Vec<_>, _> =
-            FRAME_VALUES.iter().map(|entry| self.values(entry.name, Some(count))).collect();
+        let (mut of_frames, mut expected) = (Vec::new(), None);
+        for entry in FRAME_VALUES {
+            let values: Vec<f64> = self.values(entry.name, expected)?;
+            expected = Some(values.len());
+            of_frames.push(values);
+        }
+        let count = expected.unwrap_or_default();
         let mut frames = vec![Frame::default(); count]; // now that there is data for so many
-        for (entry, values) in FRAME_VALUES.iter().zip(values?) {
+        for (entry, values) in FRAME_VALUES.iter().zip(of_frames) {
             frames.iter_mut().zip(values).for_each(|(frame, value)| *(entry.slot)(frame) = value);
         }
         for list in NAMED_VALUES {
@@ -158,11 +162,15 @@ impl Content {
     }
 
     fn steps(&self) -> Result<StepLog, Failure> {
-        let count = self.values::<f64>("steps/time", None)?.len();
-        let mut steps = StepLog { rejections: vec![Rejections::default(); count], ..StepLog::default() };
+        // Each dataset is read once: what is read counts against the size of the file.
+        let (mut steps, mut expected) = (StepLog::default(), None);
         for entry in STEP_VALUES {
-            *(entry.slot)(&mut steps) = self.values(&format!("steps/{}", entry.name), Some(count))?;
+            let values: Vec<f64> = self.values(&format!("steps/{}", entry.name), expected)?;
+            expected = Some(values.len());
+            *(entry.slot)(&mut steps) = values;
         }
+        let count = expected.unwrap_or_default();
+        steps.rejections = vec![Rejections::default(); count];
         steps.order = self.values("steps/order", Some(count))?;
         steps.nodes = self.values("steps/nodes", Some(count))?;
         for cause in CAUSES {
