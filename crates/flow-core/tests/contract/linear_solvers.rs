@@ -209,24 +209,24 @@ fn preconditioned_gmres_converges_in_few_iterations() {
     }
 }
 
-/// Every mobility costs about what plain ones do (γ = 1e-3, measured with a third more); the same for every family.
+/// Every mobility costs about what plain ones do (γ = 1e-3, measured with a third more), surface diffusion up to three times as much;
+/// the same for every family.
 #[test]
 fn preconditioners_hold_every_mobility() {
     let bending = [Term::Bending, Term::Penalty];
     let agents = [Term::Agents, Term::Penalty];
     let gamma = 1e-3;
     for family in DerivativeFamily::ALL {
-        for (terms, solver, most) in [
-            (bending, LinearSolver::Fourier, 22),
-            (bending, LinearSolver::Banded, 16),
-            (agents, LinearSolver::Fourier, 55),
-            (agents, LinearSolver::Banded, 36),
+        for (terms, solver, most, most_of_diffusion) in [
+            (bending, LinearSolver::Fourier, 22, Some(22)),
+            (bending, LinearSolver::Banded, 16, Some(24)),
+            // Surface diffusion of order 8 with the agents is beyond constant coefficients.
+            (agents, LinearSolver::Fourier, 55, None),
+            (agents, LinearSolver::Banded, 36, Some(68)),
         ] {
             for normal in Normal::ALL {
-                // Surface diffusion of order 8 with the agents is beyond constant coefficients.
-                if normal == Normal::SurfaceDiffusion && (solver == LinearSolver::Banded || terms == agents) {
-                    continue;
-                }
+                let most = if normal == Normal::SurfaceDiffusion { most_of_diffusion } else { Some(most) };
+                let Some(most) = most else { continue };
                 let density = Density::Diffusion;
                 let prepared = factorised(&membrane(256), normal, density, solver, family, terms, gamma);
                 let count = iterations(prepared, gamma);

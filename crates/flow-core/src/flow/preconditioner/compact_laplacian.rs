@@ -22,13 +22,18 @@ pub fn neighbours(i: usize, nodes: usize) -> [usize; 3] {
     [(i + nodes - 1) % nodes, i, (i + 1) % nodes]
 }
 
-/// Stencil of a product with A.
-pub fn convolve<const N: usize, const M: usize>(stencil: &[f64; N]) -> [f64; M] {
-    let mut product = [0.0; M];
-    for (shift, weight) in MASS.iter().enumerate() {
-        for (k, value) in stencil.iter().enumerate() {
-            product[shift + k] += weight * value;
+/// Stencil of the power of A that is `N` nodes wide.
+pub fn power_of_mass<const N: usize>() -> [f64; N] {
+    let mut power = [0.0; N];
+    power[0] = 1.0;
+    for _ in 0..N / 2 {
+        let before = power;
+        power = [0.0; N];
+        for (shift, weight) in MASS.iter().enumerate() {
+            for (target, value) in power[shift..].iter_mut().zip(before) {
+                *target += weight * value;
+            }
         }
     }
-    product
+    power
 }

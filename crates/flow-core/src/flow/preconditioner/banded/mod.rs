@@ -10,7 +10,6 @@ mod rows;
 mod window;
 
 use std::fmt::Debug;
-use std::sync::Arc;
 
 pub use coefficients::Coefficients;
 use rows::Stencils;
@@ -21,16 +20,19 @@ use super::fourier::{diagonal_symbol, mobility_symbol};
 use super::local_spacing::LocalSpacing;
 use super::material::MaterialPart;
 use crate::flow::gradient_flow::GradientFlow;
+use crate::geometry::Complex64;
 use crate::geometry::vectors::{mean, multiply};
-use crate::geometry::{Complex64, Grading};
 use crate::operators::{CyclicBanded, FactorisationError};
 
-/// More nodes make the assembled sixth-order band inaccurate, and buy nothing.
+/// More nodes make the assembled sixth-order band inaccurate, and buy nothing; and the eighth-order one of surface diffusion.
 pub const MOST_NODES: usize = 1024;
+const MOST_NODES_OF_SURFACE_DIFFUSION: usize = 384;
 /// Graded nodes are crowded somewhere: fewer of them would miss what they crowd for.
 const MOST_GRADED_NODES: usize = 8192;
-/// F fields have a band of half-width 4F − 1, which needs three times as many rows: 12 nodes for any F.
+/// F fields have a band of half-width 4F − 1, which needs three times as many rows: 12 nodes for any F. With surface diffusion it is
+/// 5F − 1.
 const FEWEST_NODES: usize = 12;
+const FEWEST_NODES_OF_SURFACE_DIFFUSION: usize = 15;
 
 /// A banded approximate inverse acting on spectra.
 pub trait Banded: Debug + Send {
@@ -48,24 +50,36 @@ const MOST_FIELDS: usize = 4;
 /// Whether [`build`] builds something.
 pub fn exists(flow: &GradientFlow) -> bool {
     let layout = flow.layout();
-    flow.normal_mobility().order() == 0 && layout.nodes() >= FEWEST_NODES && layout.fields() <= MOST_FIELDS
+    let fewest = match (flow.normal_mobility().order(), layout.metric()) {
+        (0, _) => FEWEST_NODES,
+        (_, None) => FEWEST_NODES_OF_SURFACE_DIFFUSION,
+        // On material points the band is that of the normal velocity as it is.
+        (_, Some(_)) => return false,
+    };
+    layout.nodes() >= fewest && layout.fields() <= MOST_FIELDS
 }
 
-/// That of the curvature alone, where one [`exists`]; what the densities at hand make concave is left out.
+/// That of the curvature alone, where one [`exists`]; what the densities at hand make concave is left out. On graded nodes the
+/// highest modes of surface diffusion are too far from the band's.
 pub fn of_curvature(flow: &GradientFlow) -> Option<Box<dyn Banded>> {
-    let (nodes, grading) = (flow.layout().nodes(), flow.grading().map(Arc::as_ref));
-    let part = || LocalPart::<1, 3> { is_convex: true, ..LocalPart::new(nodes, grading) };
-    (exists(flow) && flow.layout().metric().is_none()).then(|| Box::new(part()) as Box<dyn Banded>)
+    let part = || LocalPart::<1, 3> { is_convex: true, ..LocalPart::new(flow) };
+    let serves = exists(flow) && flow.layout().metric().is_none() && !diffuses(flow);
+    serves.then(|| Box::new(part()) as Box<dyn Banded>)
 }
 
-/// Builds the solver for the number of fields, up to four; none beyond, none on a handful of nodes, and none if the normal
-/// mobility is a differential operator: it widens the band.
+/// Whether the normal mobility is that of surface diffusion, which widens the band.
+fn diffuses(flow: &GradientFlow) -> bool {
+    flow.normal_mobility().order() > 0
+}
+
+/// Builds the solver for the number of fields, up to four; none beyond, none on a handful of nodes, and none for surface diffusion
+/// on material points.
 pub fn build(flow: &GradientFlow) -> Option<Box<dyn Banded>> {
     if !exists(flow) {
         return None;
     }
-    let (nodes, grading) = (flow.layout().nodes(), flow.grading().map(Arc::as_ref));
     if flow.layout().metric().is_some() {
+        let nodes = flow.layout().nodes();
         return match flow.layout().fields() {
             1 => Some(Box::new(MaterialPart::<1, 3>::new(nodes))),
             2 => Some(Box::new(MaterialPart::<2, 7>::new(nodes))),
@@ -74,11 +88,15 @@ pub fn build(flow: &GradientFlow) -> Option<Box<dyn Banded>> {
             _ => None,
         };
     }
-    match flow.layout().fields() {
-        1 => Some(Box::new(LocalPart::<1, 3>::new(nodes, grading))),
-        2 => Some(Box::new(LocalPart::<2, 7>::new(nodes, grading))),
-        3 => Some(Box::new(LocalPart::<3, 11>::new(nodes, grading))),
-        4 => Some(Box::new(LocalPart::<4, 15>::new(nodes, grading))),
+    match (flow.layout().fields(), diffuses(flow)) {
+        (1, false) => Some(Box::new(LocalPart::<1, 3>::new(flow))),
+        (2, false) => Some(Box::new(LocalPart::<2, 7>::new(flow))),
+        (3, false) => Some(Box::new(LocalPart::<3, 11>::new(flow))),
+        (4, false) => Some(Box::new(LocalPart::<4, 15>::new(flow))),
+        (1, true) => Some(Box::new(LocalPart::<1, 4>::new(flow))),
+        (2, true) => Some(Box::new(LocalPart::<2, 9>::new(flow))),
+        (3, true) => Some(Box::new(LocalPart::<3, 14>::new(flow))),
+        (4, true) => Some(Box::new(LocalPart::<4, 19>::new(flow))),
         _ => None,
     }
 }
@@ -89,6 +107,8 @@ struct LocalPart<const F: usize, const B: usize> {
     /// Whether 𝓚 makes no mean, by field.
     keeps_mean: [bool; F],
     local: Option<LocalSpacing>,
+    /// Whether V is −`Δ_s` f, or f.
+    is_surface_diffusion: bool,
     /// Whether the energy density counts as convex.
     is_convex: bool,
     matrix: CyclicBanded<B>,
@@ -105,16 +125,24 @@ struct LocalPart<const F: usize, const B: usize> {
 }
 
 impl<const F: usize, const B: usize> LocalPart<F, B> {
-    fn new(nodes: usize, grading: Option<&Grading>) -> Self {
-        let coarse = nodes.clamp(8, if grading.is_some() { MOST_GRADED_NODES } else { MOST_NODES });
+    fn new(flow: &GradientFlow) -> Self {
+        let (nodes, grading) = (flow.layout().nodes(), flow.grading());
+        let is_surface_diffusion = diffuses(flow);
+        let most = match (grading, is_surface_diffusion) {
+            (Some(_), _) => MOST_GRADED_NODES,
+            (None, false) => MOST_NODES,
+            (None, true) => MOST_NODES_OF_SURFACE_DIFFUSION,
+        };
+        let coarse = nodes.clamp(8, most);
         let window = Window::new(nodes, coarse);
         let grid = &window.grid;
         let matrix = CyclicBanded::in_blocks(coarse * F, F);
         Self {
             keeps_mean: [true; F],
             local: grading.map(|grading| LocalSpacing::new(grading, coarse)),
+            is_surface_diffusion,
             is_convex: false,
-            stencils: Stencils::new(matrix.places() / F),
+            stencils: Stencils::new(matrix.places() / F, is_surface_diffusion),
             matrix,
             mass: (0..grid.modes()).map(|mode| mass_symbol(mode, coarse)).collect(),
             before: vec![1.0; F * grid.modes()],
@@ -126,8 +154,9 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
     }
 
     /// Symbols of the diagonal block of `field` with mean coefficients: by second differences with the normal mobility
-    /// left out, as in the band, and the right one.
+    /// left out unless it is surface diffusion, as in the band, and the right one.
     fn diagonal_symbols(
+        &self,
         flow: &GradientFlow,
         field: usize,
         mean: f64,
@@ -136,8 +165,11 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
     ) -> [f64; 2] {
         let length = flow.symbol_length();
         let square = difference / (length * length);
-        let band =
-            if field == 0 { square * square } else { mobility_symbol(flow, field, difference, length) };
+        let band = if field == 0 && !self.is_surface_diffusion {
+            square * square
+        } else {
+            mobility_symbol(flow, field, difference, length)
+        };
         let stiffness = flow.energy_terms().implicit_stiffness()[field];
         let band = 1.0 + gamma * band * (stiffness * square + mean);
         [band, 1.0 + gamma * diagonal_symbol(flow, field, exact, mean)]
@@ -152,8 +184,12 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
                 let exact = flow.grid_and_derivative().1.minus_laplacian()[mode];
                 let mass = self.mass[mode];
                 let difference = symbol_of_mass(mass, coarse);
-                let [band, right] = Self::diagonal_symbols(flow, field, mean, gamma, [difference, exact]);
-                let (power, root) = (if field == 0 { mass * mass } else { mass }, (band / right).sqrt());
+                let [band, right] = self.diagonal_symbols(flow, field, mean, gamma, [difference, exact]);
+                let mut power = if field == 0 { mass * mass } else { mass };
+                if self.is_surface_diffusion {
+                    power *= mass;
+                }
+                let root = (band / right).sqrt();
                 self.before[field * modes + mode] = power * root;
                 self.after[field * modes + mode] = mass * root;
             }
