@@ -103,7 +103,8 @@ fn start(scene: &Scene, shape: &Shape, length: f64) -> Result<Start, SetupError>
     };
     let fronts = resolution::fronts(scene, length);
     if scene.flow.gauge.metric() != MetricRole::Graded && fronts > MOST_NODES as f64 {
-        return Err(SetupError::TooManyNodes { needed: fronts, most: MOST_NODES });
+        let remedy = "make epsilon or delta larger, let nodes follow the fronts (flow.gauge = \"graded\")";
+        return Err(SetupError::TooManyNodes { needed: fronts, most: MOST_NODES, remedy });
     }
     let (mut nodes, family) = (nodes, family(scene, false));
     loop {
@@ -116,7 +117,11 @@ fn start(scene: &Scene, shape: &Shape, length: f64) -> Result<Start, SetupError>
                     return Ok(start);
                 }
                 if needed > MOST_NODES {
-                    return Err(SetupError::TooManyNodes { needed: needed as f64, most: MOST_NODES });
+                    let remedy = match family.order() {
+                        None => "smooth the curve, take a looser tolerance",
+                        Some(_) => "take the derivative \"auto\", a looser tolerance",
+                    };
+                    return Err(SetupError::TooManyNodes { needed: needed as f64, most: MOST_NODES, remedy });
                 }
                 let fewer = needed < nodes;
                 nodes = needed.max(resolution::LEAST_NODES);

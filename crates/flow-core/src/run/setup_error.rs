@@ -26,11 +26,10 @@ pub enum SetupError {
     TooFewNodes { nodes: usize, gap: f64, bound: f64 },
     /// The automatic choice found no number of nodes.
     #[error(
-        "`accuracy.nodes` = \"auto\": the scene needs about {needed:.0} nodes, and at most {most} are allowed; make \
-         epsilon or delta larger, smooth the curve, take a looser tolerance or a derivative of higher order, or set a number of \
-         nodes"
+        "`accuracy.nodes` = \"auto\": the scene needs about {needed:.0} nodes, and at most {most} are allowed; {remedy}, \
+         or set a number of nodes"
     )]
-    TooManyNodes { needed: f64, most: usize },
+    TooManyNodes { needed: f64, most: usize, remedy: &'static str },
     /// A density is NaN or infinite.
     #[error(
         "`density.{density}.initial` is {value} at node {node} (s = {parameter:.6}): it must be finite for all s \

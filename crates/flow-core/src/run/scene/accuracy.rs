@@ -6,8 +6,7 @@ use serde::{Serialize, Serializer};
 use super::choice::names;
 use super::entry::Entry;
 use super::error::{Bound, Fault};
-use super::flow::{Flow, NormalMobility};
-use super::gauge::Gauge;
+use super::flow::NormalMobility;
 use super::keywords::{Within, inline_schema, number};
 use super::section::Section;
 use crate::operators::Helmholtz;
@@ -95,15 +94,15 @@ impl Default for Accuracy {
 }
 
 impl Accuracy {
-    /// Reads `[accuracy]` of a scene with `[flow]` as in `flow`.
-    pub(super) fn read(mut section: Section<'_>, flow: &Flow) -> Self {
+    /// Reads `[accuracy]` of a scene with the normal mobility `mobility`.
+    pub(super) fn read(mut section: Section<'_>, mobility: NormalMobility) -> Self {
         let default = Self::default();
         let tolerance = section.get("tolerance");
         let tolerance = tolerance.and_then(|entry| entry.number(TOLERANCE, "try 1e-5, the default"));
         let nodes = section.get("nodes").and_then(|entry| read_nodes(&entry));
         let derivative = section.get("derivative").and_then(|entry| entry.choice(&[]));
         let linear_solver = section.get("linear_solver").and_then(|entry| entry.choice(&[]));
-        check_mobility(&section, flow, nodes, linear_solver);
+        check_mobility(&section, mobility, nodes);
         section.finish();
         Self {
             tolerance: tolerance.unwrap_or(default.tolerance),
@@ -115,17 +114,7 @@ impl Accuracy {
 }
 
 /// What the methods cannot do with some mobilities.
-fn check_mobility(section: &Section<'_>, flow: &Flow, nodes: Option<Nodes>, solver: Option<LinearSolver>) {
-    let mobility = flow.normal_mobility;
-    let (choice, value) = ("flow.normal_mobility", mobility.name());
-    let mut gauges = flow.switch.iter().map(|switch| switch.gauge).chain([flow.gauge]);
-    let no_band =
-        mobility == NormalMobility::SurfaceDiffusion && gauges.any(|gauge| gauge == Gauge::CoMoving);
-    if no_band && solver == Some(LinearSolver::Banded) {
-        let remedy =
-            "on co-moving nodes there is no band for it; use \"auto\" or \"fourier\", or another gauge";
-        section.fault("linear_solver", Fault::OtherChoice { choice, value, remedy });
-    }
+fn check_mobility(section: &Section<'_>, mobility: NormalMobility, nodes: Option<Nodes>) {
     let band =
         matches!(mobility, NormalMobility::Incompressible | NormalMobility::IncompressibleAreaPreserving);
     if let Some(Nodes::Count(count)) = nodes.filter(|_| band)

@@ -204,7 +204,7 @@ fn read(mut root: Section<'_>) -> Option<Scene> {
     let end = time.as_ref().map(|time| time.end);
     let flow = root.section("flow").map(|table| Flow::read(table, end)).unwrap_or_default();
     check_weights(&root, density.as_deref().unwrap_or_default(), &flow);
-    let accuracy = root.section("accuracy").map(|table| Accuracy::read(table, &flow));
+    let accuracy = root.section("accuracy").map(|table| Accuracy::read(table, flow.normal_mobility));
     let accuracy = accuracy.unwrap_or_default();
     let output =
         root.section("output").map_or_else(|| Some(Output::default()), |table| Output::read(table, end));

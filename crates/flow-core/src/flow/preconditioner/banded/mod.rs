@@ -50,12 +50,7 @@ const MOST_FIELDS: usize = 4;
 /// Whether [`build`] builds something.
 pub fn exists(flow: &GradientFlow) -> bool {
     let layout = flow.layout();
-    let fewest = match (flow.normal_mobility().order(), layout.metric()) {
-        (0, _) => FEWEST_NODES,
-        (_, None) => FEWEST_NODES_OF_SURFACE_DIFFUSION,
-        // On material points the band is that of the normal velocity as it is.
-        (_, Some(_)) => return false,
-    };
+    let fewest = if diffuses(flow) { FEWEST_NODES_OF_SURFACE_DIFFUSION } else { FEWEST_NODES };
     layout.nodes() >= fewest && layout.fields() <= MOST_FIELDS
 }
 
@@ -72,32 +67,30 @@ fn diffuses(flow: &GradientFlow) -> bool {
     flow.normal_mobility().order() > 0
 }
 
-/// Builds the solver for the number of fields, up to four; none beyond, none on a handful of nodes, and none for surface diffusion
-/// on material points.
+/// Builds the solver for the number of fields, up to four; none beyond, and none on a handful of nodes.
 pub fn build(flow: &GradientFlow) -> Option<Box<dyn Banded>> {
     if !exists(flow) {
         return None;
     }
-    if flow.layout().metric().is_some() {
-        let nodes = flow.layout().nodes();
-        return match flow.layout().fields() {
-            1 => Some(Box::new(MaterialPart::<1, 3>::new(nodes))),
-            2 => Some(Box::new(MaterialPart::<2, 7>::new(nodes))),
-            3 => Some(Box::new(MaterialPart::<3, 11>::new(nodes))),
-            4 => Some(Box::new(MaterialPart::<4, 15>::new(nodes))),
-            _ => None,
-        };
-    }
     match (flow.layout().fields(), diffuses(flow)) {
-        (1, false) => Some(Box::new(LocalPart::<1, 3>::new(flow))),
-        (2, false) => Some(Box::new(LocalPart::<2, 7>::new(flow))),
-        (3, false) => Some(Box::new(LocalPart::<3, 11>::new(flow))),
-        (4, false) => Some(Box::new(LocalPart::<4, 15>::new(flow))),
-        (1, true) => Some(Box::new(LocalPart::<1, 4>::new(flow))),
-        (2, true) => Some(Box::new(LocalPart::<2, 9>::new(flow))),
-        (3, true) => Some(Box::new(LocalPart::<3, 14>::new(flow))),
-        (4, true) => Some(Box::new(LocalPart::<4, 19>::new(flow))),
+        (1, false) => Some(of_fields::<1, 3>(flow)),
+        (2, false) => Some(of_fields::<2, 7>(flow)),
+        (3, false) => Some(of_fields::<3, 11>(flow)),
+        (4, false) => Some(of_fields::<4, 15>(flow)),
+        (1, true) => Some(of_fields::<1, 4>(flow)),
+        (2, true) => Some(of_fields::<2, 9>(flow)),
+        (3, true) => Some(of_fields::<3, 14>(flow)),
+        (4, true) => Some(of_fields::<4, 19>(flow)),
         _ => None,
+    }
+}
+
+/// That of `F` fields, with a band of half-width `B`.
+fn of_fields<const F: usize, const B: usize>(flow: &GradientFlow) -> Box<dyn Banded> {
+    if flow.layout().metric().is_some() {
+        Box::new(MaterialPart::<F, B>::new(flow))
+    } else {
+        Box::new(LocalPart::<F, B>::new(flow))
     }
 }
 

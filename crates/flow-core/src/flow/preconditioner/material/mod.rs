@@ -1,7 +1,7 @@
 //! The local part of I − γJ on material points, as an equation of the normal velocity. See `THEORY.md`, eq. (O9).
 //!
 //! The unknowns are v, which moves the curvature by δκ = −(`Δ_s` + κ²)v, and what the nodes carry besides, ν = m/g, with
-//! δρ = ν − κρv. The operator is I + γ diag(1, 𝓖)·Bᵀ Hess B with B: (v, ν) ↦ (δκ, δρ), by second differences on the nodes as
+//! δρ = ν − κρv. The operator is I + γ diag(𝓑, 𝓖)·Bᵀ Hess B with B: (v, ν) ↦ (δκ, δρ), by second differences on the nodes as
 //! they are: symmetric, so that its ratio to the exact one stays bounded however unequal the distances of the nodes are.
 
 mod rows;
@@ -25,22 +25,27 @@ pub struct MaterialPart<const F: usize, const B: usize> {
     keeps_mean: [bool; F],
     local: LocalSpacing,
     length: f64,
+    /// Whether 𝓑 is −`Δ_s`, or Id.
+    is_surface_diffusion: bool,
     matrix: CyclicBanded<B>,
     /// Root of the ratio of the symbols, by field and mode.
     roots: Vec<f64>,
     coefficients: Coefficients<F>,
-    /// δκ, δρ over the nodes i−1, i, i+1; their slopes over i−1 … i+2; the derivatives by them and by the stretch over i−2 … i+2.
+    /// δκ, δρ over the nodes i−1, i, i+1; their slopes over i−1 … i+2; the derivatives by them and by the stretch over i−2 … i+2; the
+    /// force over i−3 … i+3.
     motion_rows: Vec<[[Row<F>; 3]; F]>,
     slope_rows: Vec<[[Row<F>; 4]; F]>,
     gradient_rows: Vec<[[Row<F>; 5]; F]>,
     stretch_rows: Vec<[Row<F>; 5]>,
+    force_rows: Vec<[Row<F>; 7]>,
     /// All unknowns at the nodes.
     values: Vec<f64>,
 }
 
 impl<const F: usize, const B: usize> MaterialPart<F, B> {
-    /// For a flow on `nodes` nodes.
-    pub fn new(nodes: usize) -> Self {
+    /// For `flow`.
+    pub fn new(flow: &GradientFlow) -> Self {
+        let nodes = flow.layout().nodes();
         let coarse = nodes.clamp(8, MOST_NODES);
         let window = Window::new(nodes, coarse);
         let grid = &window.grid;
@@ -48,6 +53,7 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
             keeps_mean: [false; F],
             local: LocalSpacing::new(&Grading::uniform(nodes), coarse),
             length: 1.0,
+            is_surface_diffusion: flow.normal_mobility().order() > 0,
             matrix: CyclicBanded::in_blocks(coarse * F, F),
             roots: vec![1.0; F * grid.modes()],
             coefficients: Coefficients::new(nodes, grid),
@@ -55,12 +61,14 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
             slope_rows: vec![[[[0.0; F]; 4]; F]; coarse],
             gradient_rows: vec![[[[0.0; F]; 5]; F]; coarse],
             stretch_rows: vec![[[0.0; F]; 5]; coarse],
+            force_rows: vec![[[0.0; F]; 7]; coarse],
             values: vec![0.0; coarse * F],
             window,
         }
     }
 
-    /// Roots of the ratio of the symbols with mean coefficients, by second differences with 𝓑 = Id to the right ones.
+    /// Roots of the ratio of the symbols with mean coefficients, by second differences, with 𝓑 = Id unless it is that of
+    /// surface diffusion, to the right ones.
     fn set_roots(&mut self, flow: &mut GradientFlow, gamma: f64) {
         let (nodes, modes, length) =
             (self.window.grid.nodes() as f64, self.window.grid.modes(), flow.symbol_length());
@@ -71,7 +79,7 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
                 let exact = flow.grid_and_derivative().1.minus_laplacian()[mode];
                 let difference = (2.0 * nodes * (std::f64::consts::PI * mode as f64 / nodes).sin()).powi(2);
                 let band = match field {
-                    0 => (difference / (length * length)).powi(2),
+                    0 if !self.is_surface_diffusion => (difference / (length * length)).powi(2),
                     _ => mobility_symbol(flow, field, difference, length),
                 };
                 let symbol = |mobility: f64, laplacian: f64| {

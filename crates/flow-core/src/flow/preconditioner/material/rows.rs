@@ -102,37 +102,55 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
         (gradient, stretch)
     }
 
-    /// Fills I + γ(Bᵀp for v, 𝓖p for ν).
+    /// Fills I + γ(𝓑Bᵀp for v, 𝓖p for ν), with 𝓑 that of surface diffusion or Id.
     pub(super) fn fill(&mut self, flow: &GradientFlow, gamma: f64) {
         let (densities, nodes) = (flow.density_mobilities(), self.window.grid.nodes());
+        for i in 0..nodes {
+            self.force_rows[i] = self.force(i);
+        }
         self.matrix.clear();
         for i in 0..nodes {
-            for f in 0..F {
+            if self.is_surface_diffusion {
+                let mut row = [[0.0; F]; 9];
+                row[4][0] = 1.0;
+                for (shift, node) in neighbours(i, nodes).into_iter().enumerate() {
+                    add(&mut row, shift, -gamma * self.laplacian(i)[shift], &self.force_rows[node]);
+                }
+                self.matrix.set_row(i * F, -((4 * F) as isize), row.as_flattened());
+            } else {
+                let mut row = [[0.0; F]; 7];
+                row[3][0] = 1.0;
+                add(&mut row, 0, gamma, &self.force_rows[i]);
+                self.matrix.set_row(i * F, -((3 * F) as isize), row.as_flattened());
+            }
+            for f in 1..F {
                 let mut row = [[0.0; F]; 7];
                 row[3][f] = 1.0;
-                let weights = match f {
-                    0 => self.bend(i),
-                    _ => densities[f - 1].three_points(i, nodes, self.length),
-                };
+                let weights = densities[f - 1].three_points(i, nodes, self.length);
                 for (shift, node) in neighbours(i, nodes).into_iter().enumerate() {
                     add(&mut row, shift, gamma * weights[shift], &self.gradient_rows[node][f]);
-                }
-                if f == 0 {
-                    let kappa = self.coefficients.field(i, 0);
-                    add(&mut row, 1, gamma * kappa, &self.stretch_rows[i]);
-                    for g in 1..F {
-                        let carried = -gamma * kappa * self.coefficients.field(i, g);
-                        add(&mut row, 1, carried, &self.gradient_rows[i][g]);
-                    }
                 }
                 self.matrix.set_row(i * F + f, -((3 * F + f) as isize), row.as_flattened());
             }
         }
     }
+
+    /// Bᵀp for v at node `i`, over the nodes i−3 … i+3.
+    fn force(&self, i: usize) -> [Row<F>; 7] {
+        let (mut row, kappa, weights) = ([[0.0; F]; 7], self.coefficients.field(i, 0), self.bend(i));
+        for (shift, node) in neighbours(i, self.window.grid.nodes()).into_iter().enumerate() {
+            add(&mut row, shift, weights[shift], &self.gradient_rows[node][0]);
+        }
+        add(&mut row, 1, kappa, &self.stretch_rows[i]);
+        for g in 1..F {
+            add(&mut row, 1, -kappa * self.coefficients.field(i, g), &self.gradient_rows[i][g]);
+        }
+        row
+    }
 }
 
 /// Adds `factor` × `stencil`, from the place `first` on.
-fn add<const F: usize>(row: &mut [Row<F>; 7], first: usize, factor: f64, stencil: &[Row<F>; 5]) {
+fn add<const F: usize>(row: &mut [Row<F>], first: usize, factor: f64, stencil: &[Row<F>]) {
     for (target, entries) in row[first..].iter_mut().zip(stencil) {
         for (target, entry) in target.iter_mut().zip(entries) {
             *target += factor * entry;
