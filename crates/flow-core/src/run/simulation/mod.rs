@@ -94,7 +94,10 @@ pub struct Simulation {
 /// [`SetupError`] if the scene makes no initial state.
 pub fn run(scene: &Scene, observer: &mut dyn Observer) -> Result<Record, SetupError> {
     let mut simulation = Simulation::new(scene)?;
-    while simulation.step(observer) {}
+    let mut clock = Instant::now();
+    while simulation.stopped.is_none() {
+        clock = simulation.step_since(clock, observer);
+    }
     Ok(simulation.into_record())
 }
 
@@ -102,10 +105,15 @@ impl Simulation {
     /// Takes one accepted step, saves the frames that fall into it and tells `observer`.
     /// Returns whether there is more to do.
     pub fn step(&mut self, observer: &mut dyn Observer) -> bool {
-        if self.stopped.is_some() {
-            return false;
+        if self.stopped.is_none() {
+            self.step_since(Instant::now(), observer);
         }
-        let clock = Instant::now();
+        self.stopped.is_none()
+    }
+
+    /// The step of a run that has not stopped, which began at `clock`; returns its end, where the next one may begin: a look at the
+    /// clock takes a hundredth of a step of few nodes.
+    fn step_since(&mut self, clock: Instant, observer: &mut dyn Observer) -> Instant {
         let watch = &mut self.clocks.watch;
         watch.start_step();
         let report = self.integration.step(&mut Clocked::new(&mut self.membrane, watch));
@@ -115,9 +123,9 @@ impl Simulation {
         self.record.counters.integration_seconds += seconds;
         self.clocks.integration += seconds;
         self.after_step(report, fault, observer);
-        let rest = clock.elapsed().as_secs_f64() - seconds;
-        self.clocks.observers += rest - (self.clocks.aside() - aside);
-        self.stopped.is_none()
+        let end = Instant::now();
+        self.clocks.observers += (end - clock).as_secs_f64() - seconds - (self.clocks.aside() - aside);
+        end
     }
 
     /// Logs an accepted step, saves frames, tells `observer`, and stops the run if it is over.
@@ -163,7 +171,10 @@ impl Simulation {
         self.until = time;
         self.integration.set_end(self.next_stop());
         let last = self.counters().steps.saturating_add(steps);
-        while self.time() < time && self.counters().steps < last && self.step(observer) {}
+        let mut clock = Instant::now();
+        while self.time() < time && self.counters().steps < last && self.stopped.is_none() {
+            clock = self.step_since(clock, observer);
+        }
         self.until = f64::INFINITY;
         self.integration.set_end(self.next_stop());
         self.stopped.is_none()
