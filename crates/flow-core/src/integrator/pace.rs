@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::clock::{Clock, fastest};
 
 /// Growth of a step at most.
-pub const MOST_GROWTH: f64 = 2.5;
+pub const MOST_GROWTH: f64 = 2.8;
 /// Growth after the first step.
 const FIRST_GROWTH: f64 = 1e4;
 /// Growth below this factor is not worth what a new step size costs.

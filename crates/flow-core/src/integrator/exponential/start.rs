@@ -46,6 +46,6 @@ pub fn start(
 /// A first step that moves the state by a small part of the tolerance's cube root, by its rate and by the slope of that: the error of
 /// order 2 is O(h³). At rest the rate is rounding, and the slope tells how much of it.
 fn first_step(tolerance: f64, rate: f64, slope: f64) -> f64 {
-    let part = 0.1 * tolerance.cbrt();
+    let part = 0.2 * tolerance.cbrt();
     part / rate.max((part * slope).sqrt()).max(1e-280)
 }
