@@ -63,7 +63,7 @@ pub fn of_curvature(flow: &GradientFlow) -> Option<Box<dyn Banded>> {
 }
 
 /// Whether the normal mobility is that of surface diffusion, which widens the band.
-fn diffuses(flow: &GradientFlow) -> bool {
+pub fn diffuses(flow: &GradientFlow) -> bool {
     flow.normal_mobility().order() > 0
 }
 

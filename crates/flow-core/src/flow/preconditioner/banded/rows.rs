@@ -11,7 +11,7 @@ use crate::flow::gradient_flow::GradientFlow;
 use crate::operators::{CyclicBanded, LANES, Lane};
 
 /// Nodes beyond each end of the segments that their rows see: one for each Laplacian but the last.
-pub fn margin(is_surface_diffusion: bool) -> usize {
+fn margin(is_surface_diffusion: bool) -> usize {
     if is_surface_diffusion { 3 } else { 2 }
 }
 

@@ -6,7 +6,7 @@
 
 mod rows;
 
-use super::banded::{Banded, Coefficients, MOST_NODES, Window};
+use super::banded::{Banded, Coefficients, MOST_NODES, Window, diffuses};
 use super::fourier::mobility_symbol;
 use super::local_spacing::LocalSpacing;
 use crate::flow::gradient_flow::GradientFlow;
@@ -53,7 +53,7 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
             keeps_mean: [false; F],
             local: LocalSpacing::new(&Grading::uniform(nodes), coarse),
             length: 1.0,
-            is_surface_diffusion: flow.normal_mobility().order() > 0,
+            is_surface_diffusion: diffuses(flow),
             matrix: CyclicBanded::in_blocks(coarse * F, F),
             roots: vec![1.0; F * grid.modes()],
             coefficients: Coefficients::new(nodes, grid),
