@@ -129,13 +129,7 @@ impl Content {
 
     fn frames(&self, record: &Record) -> Result<Vec<Frame>, Failure> {
         let nodes = self.values::<f64>("parameter", None)?.len();
-        let (mut of_frames, mut expected) = (Vec::new(), None);
-        for entry in FRAME_VALUES {
-            let values: Vec<f64> = self.values(entry.name, expected)?;
-            expected = Some(values.len());
-            of_frames.push(values);
-        }
-        let count = expected.unwrap_or_default();
+        let (count, of_frames) = self.columns(FRAME_VALUES.iter().map(|entry| entry.name.to_owned()))?;
         let mut frames = vec![Frame::default(); count]; // now that there is data for so many
         for (entry, values) in FRAME_VALUES.iter().zip(of_frames) {
             frames.iter_mut().zip(values).for_each(|(frame, value)| *(entry.slot)(frame) = value);
@@ -162,15 +156,12 @@ impl Content {
     }
 
     fn steps(&self) -> Result<StepLog, Failure> {
-        // Each dataset is read once: what is read counts against the size of the file.
-        let (mut steps, mut expected) = (StepLog::default(), None);
-        for entry in STEP_VALUES {
-            let values: Vec<f64> = self.values(&format!("steps/{}", entry.name), expected)?;
-            expected = Some(values.len());
+        let names = STEP_VALUES.iter().map(|entry| format!("steps/{}", entry.name));
+        let (count, of_steps) = self.columns(names)?;
+        let mut steps = StepLog { rejections: vec![Rejections::default(); count], ..StepLog::default() };
+        for (entry, values) in STEP_VALUES.iter().zip(of_steps) {
             *(entry.slot)(&mut steps) = values;
         }
-        let count = expected.unwrap_or_default();
-        steps.rejections = vec![Rejections::default(); count];
         steps.order = self.values("steps/order", Some(count))?;
         steps.nodes = self.values("steps/nodes", Some(count))?;
         for cause in CAUSES {
@@ -229,6 +220,18 @@ impl Content {
             }
             _ => Ok(values),
         }
+    }
+
+    /// All values of the datasets `names`, as many in each as in the first, and how many. Each is read once: what is read counts
+    /// against the size of the file.
+    fn columns(&self, names: impl Iterator<Item = String>) -> Result<(usize, Vec<Vec<f64>>), Failure> {
+        let (mut columns, mut expected) = (Vec::new(), None);
+        for name in names {
+            let values: Vec<f64> = self.values(&name, expected)?;
+            expected = Some(values.len());
+            columns.push(values);
+        }
+        Ok((expected.unwrap_or_default(), columns))
     }
 
     fn text(&self, name: &str) -> Result<String, Failure> {

@@ -94,10 +94,7 @@ pub struct Simulation {
 /// [`SetupError`] if the scene makes no initial state.
 pub fn run(scene: &Scene, observer: &mut dyn Observer) -> Result<Record, SetupError> {
     let mut simulation = Simulation::new(scene)?;
-    let mut clock = Instant::now();
-    while simulation.stopped.is_none() {
-        clock = simulation.step_since(clock, observer);
-    }
+    simulation.run_until(f64::INFINITY, u64::MAX, observer);
     Ok(simulation.into_record())
 }
 
