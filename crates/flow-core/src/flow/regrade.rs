@@ -5,7 +5,6 @@ use std::sync::Arc;
 use super::gradient_flow::GradientFlow;
 use crate::geometry::{
     Closure, ClosureError, Complex64, Grading, Layout, PeriodicGrid, ScatteredPoints, SpectralLayout,
-    parameters_of_fractions,
 };
 
 /// A state on other nodes.
@@ -65,10 +64,12 @@ impl Regrading {
         let uniform = || (0..nodes).map(|i| i as f64 / nodes as f64).collect();
         let fractions: Vec<f64> = grading.as_ref().map_or_else(uniform, |grading| grading.fractions());
         let old = from.current().grading();
-        let parameters =
-            old.map_or_else(|| fractions.clone(), |old| parameters_of_fractions(old, &fractions));
+        let points = old.map_or_else(
+            || ScatteredPoints::new(from.layout().nodes(), &fractions),
+            |old| ScatteredPoints::at_fractions(old, &fractions),
+        );
         Self {
-            points: ScatteredPoints::new(from.layout().nodes(), &parameters),
+            points,
             grid: PeriodicGrid::new(nodes),
             layouts: [from.spectral_layout(), SpectralLayout::new(to)],
             fields: to.fields(),

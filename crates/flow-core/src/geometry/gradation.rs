@@ -13,8 +13,8 @@ const GROWTH: f64 = 1.0;
 const SMOOTH: f64 = 1.25;
 /// … and those in which the samples are, in multiples of that.
 const CLEAN: f64 = 2.5;
-/// Points of the map per node.
-const REFINEMENT: usize = 4;
+/// Least number of points of the map: the filters leave nothing at half of it.
+const LEAST_POINTS: usize = 256;
 
 /// Samples (see [`Grading::samples`]) of the grading on `nodes` nodes whose spacing is inversely proportional to `wave_numbers`,
 /// given at the `fractions` of the arc length in increasing order, the first of them 0.
@@ -22,15 +22,21 @@ const REFINEMENT: usize = 4;
 pub fn follow_scales(fractions: &[f64], wave_numbers: &[f64], nodes: usize) -> Vec<f64> {
     let spacing: Vec<f64> = wave_numbers.iter().map(|k| 1.0 / k).collect();
     let spacing = limit_growth(fractions, spacing);
-    let count = REFINEMENT * nodes;
+    let logarithms: Vec<f64> = spacing.iter().map(|h| h.ln()).collect();
+    let samples = Grading::samples(nodes);
+    let every = LEAST_POINTS.div_ceil(samples);
+    let mut filter = Filter::new(every * samples);
     // Smoothed along the parameter of the raw map, but as a function of the place x: the crowds stay where they are.
-    let (places, raw) = place_nodes(fractions, &spacing, count);
+    let (places, mut logarithms) = place_nodes(fractions, &spacing, &logarithms, every * samples);
     let modes = SMOOTH * (nodes as f64).sqrt();
-    let smooth = low_pass(&raw, modes);
-    let (_, spacing) = place_nodes(&places, &smooth, count);
-    let clean = low_pass(&spacing, CLEAN * modes);
-    let every = count / Grading::samples(nodes);
-    clean.into_iter().step_by(every).collect()
+    filter.low_pass(&mut logarithms, modes);
+    let mut smooth = logarithms.clone();
+    exponentiate(&mut smooth);
+    let (_, mut logarithms) = place_nodes(&places, &smooth, &logarithms, every * samples);
+    filter.low_pass(&mut logarithms, CLEAN * modes);
+    let mut samples: Vec<f64> = logarithms.into_iter().step_by(every).collect();
+    exponentiate(&mut samples);
+    samples
 }
 
 /// The largest spacing below `spacing` that grows at most at the rate [`GROWTH`].
@@ -49,40 +55,60 @@ fn limit_growth(fractions: &[f64], mut spacing: Vec<f64>) -> Vec<f64> {
     spacing
 }
 
-/// Places x and spacing h of `count` nodes with dx/ds proportional to h(x), h given at the `fractions`; the first is at 0.
-fn place_nodes(fractions: &[f64], spacing: &[f64], count: usize) -> (Vec<f64>, Vec<f64>) {
+/// Places x of `count` nodes with dx/ds proportional to the `spacing` given at the `fractions`, and the `logarithms` of the spacing
+/// there; the first is at 0.
+fn place_nodes(fractions: &[f64], spacing: &[f64], logarithms: &[f64], count: usize) -> (Vec<f64>, Vec<f64>) {
     let points = fractions.len();
-    let at = |i: usize| if i < points { (fractions[i], spacing[i]) } else { (1.0, spacing[0]) };
+    let density: Vec<f64> = spacing.iter().map(|h| 1.0 / h).collect();
+    let ends = |i: usize| if i + 1 < points { (i + 1, fractions[i + 1]) } else { (0, 1.0) };
     let mut reached = vec![0.0; points + 1];
     for i in 0..points {
-        let ((x0, h0), (x1, h1)) = (at(i), at(i + 1));
-        reached[i + 1] = reached[i] + 0.5 * (x1 - x0) * (1.0 / h0 + 1.0 / h1);
+        let (next, end) = ends(i);
+        reached[i + 1] = reached[i] + 0.5 * (end - fractions[i]) * (density[i] + density[next]);
     }
-    let mut left = 0;
-    let node = |j: usize| {
-        let aim = reached[points] * j as f64 / count as f64;
-        while left + 1 < points && reached[left + 1] <= aim {
-            left += 1;
+    let (mut places, mut levels) = (Vec::with_capacity(count), Vec::with_capacity(count));
+    let step = reached[points] / count as f64;
+    let mut node = 0;
+    for left in 0..points {
+        let (next, end) = ends(left);
+        let per_density = 1.0 / (reached[left + 1] - reached[left]);
+        let until = if left + 1 < points { reached[left + 1] } else { f64::INFINITY };
+        while node < count && step * (node as f64) < until {
+            let part = (step * node as f64 - reached[left]) * per_density;
+            places.push(fractions[left] + part * (end - fractions[left]));
+            levels.push(logarithms[left] + part * (logarithms[next] - logarithms[left]));
+            node += 1;
         }
-        let ((x0, h0), (x1, h1)) = (at(left), at(left + 1));
-        let part = (aim - reached[left]) / (reached[left + 1] - reached[left]);
-        (x0 + part * (x1 - x0), h0 + part * (h1 - h0))
-    };
-    (0..count).map(node).unzip()
+    }
+    (places, levels)
 }
 
-/// Smooths the logarithm of positive periodic values by a Gaussian filter of the cut-off `modes`.
-fn low_pass(values: &[f64], modes: f64) -> Vec<f64> {
-    let mut grid = PeriodicGrid::new(values.len());
-    let mut spectrum = vec![Complex64::default(); grid.modes()];
-    let mut smooth: Vec<f64> = values.iter().map(|value| value.ln()).collect();
-    grid.transform(&smooth, &mut spectrum);
-    let mut filter: Vec<f64> = (0..grid.modes()).map(|mode| -(mode as f64 / modes).powi(2)).collect();
-    exponentiate(&mut filter);
-    spectrum.iter_mut().zip(&filter).for_each(|(value, factor)| *value *= *factor);
-    grid.synthesise(&spectrum, &mut smooth);
-    exponentiate(&mut smooth);
-    smooth
+/// A Gaussian filter of periodic values.
+struct Filter {
+    grid: PeriodicGrid,
+    spectrum: Vec<Complex64>,
+    factors: Vec<f64>,
+}
+
+impl Filter {
+    fn new(count: usize) -> Self {
+        let grid = PeriodicGrid::new(count);
+        let modes = grid.modes();
+        Self { grid, spectrum: vec![Complex64::default(); modes], factors: vec![0.0; modes] }
+    }
+
+    /// Smooths `values` with the cut-off `modes`.
+    fn low_pass(&mut self, values: &mut [f64], modes: f64) {
+        self.grid.transform(values, &mut self.spectrum);
+        for (mode, factor) in self.factors.iter_mut().enumerate() {
+            *factor = -(mode as f64 / modes).powi(2);
+        }
+        exponentiate(&mut self.factors);
+        for (value, factor) in self.spectrum.iter_mut().zip(&self.factors) {
+            *value *= *factor;
+        }
+        self.grid.synthesise(&self.spectrum, values);
+    }
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]

@@ -5,15 +5,19 @@ use super::{Counters, Problem};
 use crate::geometry::vectors::{add_scaled, scale, scale_into};
 
 /// Room for Krylov bases up to a fixed size; nothing is allocated in a solve.
+///
+/// The vectors of a basis are one block, of which a system provides only what is used: most solves take a few of them, and nodes
+/// that follow the solution want new room every few steps.
 #[derive(Clone, Debug)]
 pub struct Gmres {
-    basis: Vec<Vec<f64>>,
+    size: usize,
+    basis: Vec<f64>,
     hessenberg: Vec<Vec<f64>>,
     rotations: Vec<[f64; 2]>,
     right: Vec<f64>,
     product: Vec<f64>,
     /// The basis, preconditioned.
-    preconditioned: Vec<Vec<f64>>,
+    preconditioned: Vec<f64>,
 }
 
 /// How far a residual is to be reduced.
@@ -43,12 +47,13 @@ impl Gmres {
     #[must_use]
     pub fn new(size: usize, most: usize) -> Self {
         Self {
-            basis: vec![vec![0.0; size]; most + 1],
+            size,
+            basis: vec![0.0; size * (most + 1)],
             hessenberg: vec![vec![0.0; most + 1]; most],
             rotations: vec![[1.0, 0.0]; most],
             right: vec![0.0; most + 1],
             product: vec![0.0; size],
-            preconditioned: vec![vec![0.0; size]; most],
+            preconditioned: vec![0.0; size * most],
         }
     }
 
@@ -73,15 +78,15 @@ impl Gmres {
         let goal = goal.min(reduction * start);
         self.right.fill(0.0);
         self.right[0] = start;
-        scale_into(&mut self.basis[0], 1.0 / start, r);
+        scale_into(&mut self.basis[..self.size], 1.0 / start, r);
         let mut iterations = 0;
         let mut residual = start;
         while iterations < self.hessenberg.len() && residual > goal {
             let k = iterations;
-            let (known, next) = self.basis.split_at_mut(k + 1);
-            let next = &mut next[0];
-            let preconditioned = &mut self.preconditioned[k];
-            preconditioned.copy_from_slice(&known[k]);
+            let (known, next) = self.basis.split_at_mut((k + 1) * self.size);
+            let next = &mut next[..self.size];
+            let preconditioned = &mut self.preconditioned[k * self.size..(k + 1) * self.size];
+            preconditioned.copy_from_slice(&known[k * self.size..]);
             if weighted {
                 problem.unweigh(preconditioned);
             }
@@ -95,7 +100,7 @@ impl Gmres {
                 problem.weigh(next);
             }
             let column = &mut self.hessenberg[k];
-            for (entry, v) in column.iter_mut().zip(known.iter()) {
+            for (entry, v) in column.iter_mut().zip(known.chunks_exact(self.size)) {
                 *entry = norm.product(next, v);
                 add_scaled(next, -*entry, v);
             }
@@ -134,7 +139,7 @@ impl Gmres {
             self.right[row] /= self.hessenberg[row][row];
         }
         x.fill(0.0);
-        for (z, factor) in self.preconditioned.iter().zip(&self.right[..iterations]) {
+        for (z, factor) in self.preconditioned.chunks_exact(self.size).zip(&self.right[..iterations]) {
             add_scaled(x, *factor, z);
         }
     }

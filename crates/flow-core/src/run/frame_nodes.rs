@@ -1,7 +1,7 @@
 //! Frames on other nodes.
 
 use super::record::Frame;
-use crate::geometry::{Complex64, Grading, PeriodicGrid, ScatteredPoints, parameters_of_fractions, resample};
+use crate::geometry::{Complex64, Grading, PeriodicGrid, ScatteredPoints, resample};
 
 /// Spread of the metric, relative to the length, that is rounding.
 const UNIFORM: f64 = 1e-12;
@@ -41,9 +41,8 @@ impl Frame {
 
     /// The same frame at other `fractions` of the arc length; none if the metric is not positive everywhere.
     pub(super) fn at_fractions(self, fractions: &[f64]) -> Option<Self> {
-        let parameters = parameters_of_fractions(&self.grading()?, fractions);
+        let mut points = ScatteredPoints::at_fractions(&self.grading()?, fractions);
         let mut grid = PeriodicGrid::new(self.curvature.len());
-        let mut points = ScatteredPoints::new(grid.nodes(), &parameters);
         let mut spectrum = vec![Complex64::default(); grid.modes()];
         Some(self.map(|values| {
             grid.transform(values, &mut spectrum);
