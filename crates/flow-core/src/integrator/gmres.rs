@@ -6,9 +6,9 @@ use crate::geometry::vectors::{add_scaled, scale, scale_into};
 
 /// Room for Krylov bases up to a fixed size; nothing is allocated in a solve.
 ///
-/// The vectors of a basis are one block, of which a system provides only what is used: most solves take a few of them, and nodes
-/// that follow the solution want new room every few steps.
-#[derive(Clone, Debug)]
+/// Most solves take a few vectors, and nodes that follow the solution want new room every few steps: what is not used is not
+/// written.
+#[derive(Debug)]
 pub struct Gmres {
     size: usize,
     basis: Vec<f64>,
@@ -42,18 +42,25 @@ pub struct Solved {
     pub converged: bool,
 }
 
+impl Clone for Gmres {
+    /// As much room, with nothing in it.
+    fn clone(&self) -> Self {
+        Self::new(self.size, self.hessenberg.len())
+    }
+}
+
 impl Gmres {
     /// At most `most` iterations on vectors of `size` entries.
     #[must_use]
     pub fn new(size: usize, most: usize) -> Self {
         Self {
             size,
-            basis: vec![0.0; size * (most + 1)],
+            basis: Vec::with_capacity(size * (most + 1)),
             hessenberg: vec![vec![0.0; most + 1]; most],
             rotations: vec![[1.0, 0.0]; most],
             right: vec![0.0; most + 1],
             product: vec![0.0; size],
-            preconditioned: vec![0.0; size * most],
+            preconditioned: Vec::with_capacity(size * most),
         }
     }
 
@@ -78,11 +85,13 @@ impl Gmres {
         let goal = goal.min(reduction * start);
         self.right.fill(0.0);
         self.right[0] = start;
+        self.hold(1);
         scale_into(&mut self.basis[..self.size], 1.0 / start, r);
         let mut iterations = 0;
         let mut residual = start;
         while iterations < self.hessenberg.len() && residual > goal {
             let k = iterations;
+            self.hold(k + 2);
             let (known, next) = self.basis.split_at_mut((k + 1) * self.size);
             let next = &mut next[..self.size];
             let preconditioned = &mut self.preconditioned[k * self.size..(k + 1) * self.size];
@@ -128,6 +137,15 @@ impl Gmres {
         counters.krylov_iterations += iterations as u64;
         self.combine(iterations, r);
         Solved { iterations, residual, converged: residual <= goal }
+    }
+
+    /// Makes the first `vectors` of the basis, and all but the last of them preconditioned, within the room there is.
+    fn hold(&mut self, vectors: usize) {
+        let (all, preconditioned) = (self.size * vectors, self.size * (vectors - 1));
+        if self.basis.len() < all {
+            self.basis.resize(all, 0.0);
+            self.preconditioned.resize(preconditioned, 0.0);
+        }
     }
 
     /// Back substitution, and the combination of the basis into `x`.
