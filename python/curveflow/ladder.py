@@ -198,7 +198,7 @@ def tradeoff(
 
     callback = with_progress(line.show) if line else None
     try:
-        native = _curveflow.tradeoff(scene._native, ladder, reference_nodes, begin, callback, 0.1)
+        native = _curveflow.tradeoff(Scene._core(scene), ladder, reference_nodes, begin, callback, 0.1)
     finally:
         if line:
             line.end("")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import tempfile
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from itertools import chain
@@ -12,6 +13,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _curveflow
 from .errors import StorageError
 from .extras import need
 
@@ -27,7 +29,7 @@ _NEARLY_WHITE = 245
 
 @contextmanager
 def target(path: str | os.PathLike[str], replace: bool) -> Iterator[Path]:
-    """Where to write: beside ``path``, which appears once all is written, or stays as it was.
+    """Where to write what becomes ``path`` once all is written, by the rules of all files of ours.
 
     Raises:
         StorageError: the file exists, has another ending, or cannot be written.
@@ -35,18 +37,16 @@ def target(path: str | os.PathLike[str], replace: bool) -> Iterator[Path]:
     final = Path(path)
     if final.suffix.lower() not in (".gif", ".mp4"):
         raise StorageError(f"{final}: the name of a movie ends in .gif or .mp4")
-    if final.exists() and not replace:
-        raise StorageError(f"{final}: already exists; choose another name, or replace=True")
-    partial = final.with_name(f".{final.stem}.{os.getpid()}.part{final.suffix}")
+    _curveflow.check_writable(final, replace)
     try:
-        yield partial
-        partial.replace(final)
+        with tempfile.TemporaryDirectory(prefix="curveflow-") as folder:
+            partial = Path(folder) / f"movie{final.suffix}"
+            yield partial
+            _curveflow.write_file(final, partial.read_bytes(), replace)
     except StorageError:
         raise
     except OSError as error:
         raise StorageError(f"{final}: cannot be written: {error}") from error
-    finally:
-        partial.unlink(missing_ok=True)
 
 
 def writer(path: Path, fps: float) -> Callable[[Iterator[Image], int], None]:

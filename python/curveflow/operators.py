@@ -200,7 +200,7 @@ def energy(
         SetupError: the initial curve of the scene cannot be used on so many nodes.
     """
     kappa, g = _nodal(curvature=curvature, metric=metric)
-    return _curveflow.energy(scene._native, kappa, g, _of_scene(scene, density))
+    return _curveflow.energy(Scene._core(scene), kappa, g, _of_scene(scene, density))
 
 
 def normal_force(
@@ -225,7 +225,7 @@ def normal_force(
         SetupError: the initial curve of the scene cannot be used on so many nodes.
     """
     kappa, g = _nodal(curvature=curvature, metric=metric)
-    return _curveflow.normal_force(scene._native, kappa, g, _of_scene(scene, density))
+    return _curveflow.normal_force(Scene._core(scene), kappa, g, _of_scene(scene, density))
 
 
 def _contiguous(name: str, given: ArrayLike) -> Array:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import tempfile
 from collections.abc import Mapping, Sequence
 from functools import cached_property
+from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -28,7 +30,7 @@ class Result(Frames):
     the initial state, the last the final one), and per node of the curve. Units are those of the scene; numbers in
     parentheses are equations of ``THEORY.md``.
 
-    Results come from :func:`curveflow.run` and :func:`curveflow.open`.
+    Results come from :func:`curveflow.run` and :func:`curveflow.open`. They can be pickled, as the bytes of their file.
     """
 
     def __init__(self, record: _curveflow.Record, scene: Scene | None = None) -> None:
@@ -183,6 +185,9 @@ class Result(Frames):
         """
         self._record.view(path, replace)
 
+    def __reduce__(self) -> tuple[object, ...]:
+        return _of_bytes, (_curveflow.file_bytes(self._record),)
+
     def __repr__(self) -> str:
         frames, nodes = self._record.shape
         return f"<Result {self.title!r}: {self.status} at t = {self.time[-1]:.6g}, {frames} frames, {nodes} nodes>"
@@ -190,6 +195,14 @@ class Result(Frames):
     def _repr_html_(self) -> str:
         """The run at a glance, for notebooks: final curve, how it ended, the laws kept, its cost."""
         return self._record.card()
+
+
+def _of_bytes(data: bytes) -> Result:
+    """The result whose file holds ``data``: results travel between processes as files do."""
+    with tempfile.TemporaryDirectory(prefix="curveflow-") as folder:
+        path = Path(folder) / "result.h5"
+        path.write_bytes(data)
+        return open(path)
 
 
 def open(path: str | os.PathLike[str]) -> Result:

@@ -77,7 +77,7 @@ class Scene:
         Raises:
             SceneError: the file cannot be read or is not a scene; the message names keys and lines.
         """
-        return cls._of(_curveflow.Scene.read(os.fspath(path)))
+        return cls._of(_curveflow.Scene.read(path))
 
     @classmethod
     def parse(cls, text: str, name: str = "scene") -> Scene:
@@ -127,7 +127,9 @@ class Scene:
             TypeError: a value is of another type.
         """
         changes = [(key, writing.value(key, value)) for key, value in values.items()]
-        return self._of(_curveflow.Scene.parse(self.text, self._native.source_name, changes))
+        # The points of this scene, not what their file holds by now, unless another file is named.
+        native = self._native if "curve.file" in values else self._native.self_contained()
+        return self._of(_curveflow.Scene.parse(native.text, native.source_name, changes))
 
     @property
     def text(self) -> str:
@@ -139,7 +141,22 @@ class Scene:
         return self._native.to_toml()
 
     def __reduce__(self) -> tuple[object, ...]:
-        return Scene.parse, (self.text, self._native.source_name)
+        native = self._native.self_contained()
+        return Scene.parse, (native.text, native.source_name)
+
+    @staticmethod
+    def _core(scene: Scene) -> _curveflow.Scene:
+        """What the core has of a scene.
+
+        Raises:
+            TypeError: it is something else.
+        """
+        if not isinstance(scene, Scene):
+            raise TypeError(
+                f"scene is {scene!r:.60}, but it must be a curveflow.Scene: Scene.load(path), Scene.shipped(name), "
+                "Scene.parse(text) or Scene(curve=…, energy=…, time=…)"
+            )
+        return scene._native
 
     @classmethod
     def _of(cls, native: _curveflow.Scene) -> Scene:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from operator import index
 from types import MappingProxyType
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from . import _curveflow
 from .result import Array, Result
@@ -42,6 +43,14 @@ class State:
     density: Mapping[str, Array]
     """Each density by name, shape (node,)."""
 
+    def __reduce__(self) -> tuple[object, ...]:
+        values = {field.name: getattr(self, field.name) for field in fields(self)}
+        return _state, (values | {"density": dict(self.density)},)
+
+
+def _state(values: dict[str, Any]) -> State:
+    return State(**(values | {"density": MappingProxyType(values["density"])}))
+
 
 class _Scheduled(NamedTuple):
     callback: Callable[[Simulation], object]
@@ -69,7 +78,7 @@ class Simulation:
     """
 
     def __init__(self, scene: Scene) -> None:
-        self._native = _curveflow.Simulation(scene._native)
+        self._native = _curveflow.Simulation(Scene._core(scene))
         self._scene: Scene | None = scene
         self._scheduled: list[_Scheduled] = []
 
@@ -120,8 +129,8 @@ class Simulation:
         Its arrays are those of a frame made for them, not copies, and later steps do not change them. They are no views of
         the simulation: that holds Fourier coefficients, and overwrites them in each step.
         """
-        (time, energy, dissipation, length, area), position, fields, density = self._native.state()
-        curvature, metric, normal_velocity = fields
+        (time, energy, dissipation, length, area), position, nodal, density = self._native.state()
+        curvature, metric, normal_velocity = nodal
         return State(
             time=time,
             energy=energy,
@@ -144,27 +153,34 @@ class Simulation:
     ) -> None:
         """Call ``callback`` with this simulation on a schedule: :meth:`run` does so, :meth:`step` does not.
 
-        It may look at everything, and stop the run by raising ``StopIteration``; other exceptions are passed on. The
-        simulation can go on after either.
+        It may look at everything, and stop the run by raising ``StopIteration`` (others that are due are called first); other
+        exceptions are passed on. The simulation can go on after either.
 
         Args:
             callback: what to call.
-            interval: simulated time between calls, at its multiples; a step ends at each of them.
+            interval: simulated time between calls, at its multiples; a step ends at each of them, but for rounding.
             steps: accepted steps between calls, instead.
 
         Raises:
+            TypeError: ``callback`` cannot be called, or ``steps`` is no integer.
             ValueError: not one of ``interval`` and ``steps`` is given, or it is not positive.
         """
+        if not callable(callback):
+            raise TypeError(f"callback is {callback!r:.60}, which cannot be called")
         if (interval is None) == (steps is None):
             raise ValueError("give either interval or steps")
         if interval is not None and not (0 < interval < math.inf):
             raise ValueError(f"interval = {interval} must be positive and finite")
-        if steps is not None and steps < 1:
+        if steps is not None and index(steps) < 1:
             raise ValueError(f"steps = {steps} must be at least 1")
         self._scheduled.append(_Scheduled(callback, interval, steps))
 
     def step(self) -> bool:
-        """Take one accepted step; returns whether there is more to do."""
+        """Take one accepted step; returns whether there is more to do.
+
+        Raises:
+            KeyboardInterrupt: on Ctrl-C, after the step; the simulation can go on.
+        """
         return self._native.run_until(math.inf, 1, None, 0.0)
 
     def run(
@@ -176,21 +192,25 @@ class Simulation:
     ) -> bool:
         """Run until a time, or to the end of the scene; returns whether there is more to do.
 
-        Ctrl-C stops as in :func:`run`; the simulation can go on.
-
         Args:
             until: simulated time at which the last step ends.
             progress: show where the run stands on standard error.
             callback: called with a :class:`Progress` after every accepted step; it cannot use the simulation, which
-                callbacks of :meth:`add_callback` can.
+                callbacks of :meth:`add_callback` can. It stops the run by raising ``StopIteration``; other exceptions are
+                passed on.
+
+        Raises:
+            KeyboardInterrupt: on Ctrl-C, after the step at hand; the simulation can go on.
+            ValueError: ``until`` is NaN.
         """
+        if math.isnan(until):
+            raise ValueError("until = nan must be a time")
         with watching(progress, callback) as (watch, interval):
             while self.time < until and not self.done:
                 time, steps = self._next_call(until)
                 before = self.steps
-                self._native.run_until(time, steps, watch, interval)
-                interrupted = self.time < time and self.steps - before < steps and not self.done
-                if interrupted or not self._call_due():
+                goes_on = self._native.run_until(time, steps, watch, interval)
+                if not (self.steps == before or self._call_due()) or not goes_on:
                     break
         return not self.done
 
@@ -198,24 +218,29 @@ class Simulation:
         time, steps = until, _ALL_STEPS
         for scheduled in self._scheduled:
             if scheduled.interval is not None:
-                time = min(time, _next_multiple(self.time, scheduled.interval))
+                time = min(time, _next_multiple(self.time, scheduled.interval, until))
             if scheduled.steps is not None:
                 steps = min(steps, scheduled.steps - self.steps % scheduled.steps)
         return time, steps
 
     def _call_due(self) -> bool:
-        try:
-            for callback, interval, steps in self._scheduled:
-                on_time = interval is not None and self.time == round(self.time / interval) * interval
-                if on_time or (steps is not None and self.steps % steps == 0):
+        """Call what is due; returns whether the run goes on."""
+        goes_on = True
+        for callback, interval, steps in self._scheduled:
+            on_time = interval is not None and _is_multiple(self.time, interval)
+            if on_time or (steps is not None and self.steps % steps == 0):
+                try:
                     callback(self)
-        except StopIteration:
-            return False
-        return True
+                except StopIteration:
+                    goes_on = False
+        return goes_on
 
     def result(self) -> Result:
         """What there is so far, as :func:`run` returns it."""
         return Result(self._native.record(), self._scene)
+
+    def __repr__(self) -> str:
+        return f"<Simulation {self.scene.title!r}: {self.status or 'under way'} at t = {self.time:.6g}, {self.steps} steps>"
 
     def checkpoint(self, path: str | os.PathLike[str]) -> None:
         """Write all that it takes to go on by :meth:`resume`; an existing file is replaced once the new one is whole.
@@ -226,8 +251,19 @@ class Simulation:
         self._native.checkpoint(path)
 
 
-def _next_multiple(time: float, interval: float) -> float:
+def _rounding(time: float, interval: float) -> float:
+    """Times that differ by less are the same multiple of ``interval``."""
+    return max(1e-9 * interval, 4 * math.ulp(time))
+
+
+def _is_multiple(time: float, interval: float) -> bool:
+    return abs(time - round(time / interval) * interval) <= _rounding(time, interval)
+
+
+def _next_multiple(time: float, interval: float, until: float) -> float:
+    """The first multiple of ``interval`` after ``time``: ``until``, if only rounding is between them."""
+    rounding = _rounding(time, interval)
     count = math.floor(time / interval)
-    while count * interval <= time:
+    while count * interval <= time + rounding:
         count += 1
-    return count * interval
+    return until if abs(count * interval - until) <= rounding else count * interval

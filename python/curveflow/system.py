@@ -8,7 +8,10 @@ from .scene import Scene
 
 
 class System:
-    """dy/dt = f(y) of a scene, with its implicit operator and a preconditioner.
+    """dy/dt = f(y) of a scene, with its implicit operator J and a preconditioner of I - gamma J.
+
+    J = -K Hess F is what the implicit steps of Curveflow take for the Jacobian: the derivative of f without the terms that vanish
+    where the force does (F7). It is the Jacobian at rest; elsewhere Newton's method with it converges linearly, and fast.
 
     For those who bring their own integrator; :func:`curveflow.run` needs none of this. The state ``y`` holds the Fourier
     coefficients of curvature and densities per unit parameter (real and imaginary parts in turn), then the length.
@@ -24,7 +27,7 @@ class System:
     """
 
     def __init__(self, scene: Scene) -> None:
-        self._native = _curveflow.System(scene._native)
+        self._native = _curveflow.System(Scene._core(scene))
 
     @property
     def initial(self) -> NDArray[np.float64]:
@@ -51,15 +54,27 @@ class System:
     def jacobian_product(
         self, v: NDArray[np.float64], out: NDArray[np.float64] | None = None
     ) -> NDArray[np.float64]:
-        """J v at the state of the last :meth:`linearise`."""
+        """J v at the state of the last :meth:`linearise`; J leaves out of f's derivative what vanishes with the force (F7).
+
+        Raises:
+            ValueError: there was no :meth:`linearise` yet.
+        """
         out = np.empty_like(v) if out is None else out
         self._native.jacobian_product(v, out)
         return out
 
     def factorise(self, gamma: float) -> bool:
-        """Prepare the preconditioner of I - ``gamma`` J; false if that fails."""
+        """Prepare the preconditioner of I - ``gamma`` J at the state of the last :meth:`linearise`; false if that fails.
+
+        Raises:
+            ValueError: ``gamma`` is negative or not finite, or there was no :meth:`linearise` yet.
+        """
         return self._native.factorise(gamma)
 
     def precondition(self, r: NDArray[np.float64]) -> None:
-        """Overwrite ``r`` by the approximate solution of (I - gamma J) x = r."""
+        """Overwrite ``r`` by the approximate solution of (I - gamma J) x = r.
+
+        Raises:
+            ValueError: there was no :meth:`factorise` yet that succeeded.
+        """
         self._native.precondition(r)

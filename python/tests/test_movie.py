@@ -80,7 +80,7 @@ def test_existing_movies_are_kept(growth: cf.Result, tmp_path: Path):
         growth.animate(path)
     with pytest.raises(cf.StorageError, match=r"ends in \.gif or \.mp4"):
         growth.animate(tmp_path / "circle.avi")
-    with pytest.raises(cf.StorageError, match="cannot be written"):
+    with pytest.raises(cf.StorageError, match="does not exist; create it first"):
         growth.animate(tmp_path / "none" / "circle.gif", frames=1)
     with pytest.raises(ValueError, match="no frame 12, the result has 12"):
         growth.animate(path, frames=[12], replace=True)
@@ -88,6 +88,15 @@ def test_existing_movies_are_kept(growth: cf.Result, tmp_path: Path):
         with pytest.raises(ValueError, match=next(iter(wrong))):
             growth.animate(path, replace=True, **wrong)  # type: ignore[arg-type]
     assert path.read_text() == "precious"
+    path.chmod(0o444)
+    with pytest.raises(cf.StorageError, match="write-protected"):
+        growth.animate(path, replace=True)
+    path.chmod(0o644)
+    link = tmp_path / "link.gif"
+    link.symlink_to(path)
+    growth.animate(link, frames=1, size=(400, 240), replace=True)
+    assert link.is_symlink() and path.read_bytes().startswith(b"GIF")
+    link.unlink()
     growth.animate(path, frames=2, size=(400, 240), replace=True)
     assert [file.name for file in tmp_path.iterdir()] == ["circle.gif"]
 

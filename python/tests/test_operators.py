@@ -223,7 +223,7 @@ def test_errors_name_the_argument(scene: cf.Scene, membrane: cf.Result):
         cf.flow_map(KAPPA, METRIC * (1 + 0.3 * np.cos(PHI)), S)
     with fails("`metric`.*-1.*must be positive"):
         cf.helmholtz(KAPPA, -np.ones(NODES), S)
-    with fails(r"`curvature`: .* below 4π²"):
+    with fails(r"`curvature` has .* 4π² or more"):
         cf.incompressibility(1e-3 * KAPPA, METRIC, S)
     with fails("`density` has the names .*, but the scene has the densities: 'protein', 'lipid'"):
         cf.energy(scene, KAPPA, METRIC, {"protein": S})
@@ -257,3 +257,9 @@ def test_frames_of_a_result_are_views(membrane: cf.Result):
     system = cf.System(membrane.scene)
     out = np.empty_like(system.initial)
     assert system.rate(system.initial, out) is out
+
+
+def test_a_first_point_that_is_repeated_is_no_curve():
+    phi = np.linspace(0, 2 * np.pi, 257)
+    with pytest.raises(cf.ArrayError, match="at node 256.*not repeated"):
+        cf.geometry(np.stack([np.cos(phi), np.sin(phi)], axis=1))

@@ -1,3 +1,4 @@
+import copy
 import pickle
 from pathlib import Path
 
@@ -63,9 +64,9 @@ def test_scenes_compare_by_meaning_and_can_be_pickled(circle: cf.Scene):
     again = cf.Scene.parse(circle.to_toml())
     assert again == circle
     assert hash(again) == hash(circle)
-    copy = pickle.loads(pickle.dumps(circle))
-    assert copy == circle
-    assert copy.text == circle.text
+    other = pickle.loads(pickle.dumps(circle))
+    assert other == circle
+    assert other.text == circle.text
     assert "Circle" in repr(circle)
     assert circle != circle.with_values({"accuracy.nodes": 64})
 
@@ -74,3 +75,30 @@ def test_a_scene_that_makes_no_state_is_a_setup_error():
     scene = cf.Scene.shipped("three_fold").with_values({"density.protein.initial": "ln(s)"})
     with pytest.raises(cf.SetupError, match=r"density\.protein\.initial.*-inf at node 0"):
         cf.run(scene)
+
+
+def test_the_points_of_a_scene_do_not_change_with_their_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.chdir(tmp_path)
+    phi = np.linspace(0, 2 * np.pi, 64, endpoint=False)
+
+    def write(name: str, half_width: float) -> None:
+        np.savetxt(tmp_path / name, np.stack([half_width * np.cos(phi), np.sin(phi)], axis=1))
+
+    write("ring.txt", 1.5)
+    scene = cf.Scene(curve=cf.Points(file="ring.txt"), energy=[cf.Bending(1.0)], time=cf.Time(0.01))
+    pickled = pickle.dumps(scene)
+    write("ring.txt", 3.0)
+    write("other.txt", 2.0)
+    for same in (copy.copy(scene), copy.deepcopy(scene), pickle.loads(pickled)):
+        assert same == scene
+    assert scene.with_values({"time.end": 0.02}).curve == scene.curve
+    other = scene.with_values({"curve.file": "other.txt"}).curve
+    assert isinstance(other, cf.Points) and other.points[0] == (2.0, 0.0)
+    (tmp_path / "ring.txt").unlink()
+    assert copy.deepcopy(scene) == scene
+
+
+def test_what_is_no_scene_is_refused():
+    for call in (cf.run, cf.Simulation, cf.System, cf.tradeoff):
+        with pytest.raises(TypeError, match=r"'three_fold'.*Scene\.load.*Scene\.shipped"):
+            call("three_fold")  # type: ignore[arg-type,operator]

@@ -1,4 +1,6 @@
+import copy
 import math
+import pickle
 import signal
 import threading
 import time
@@ -78,6 +80,76 @@ def test_callbacks_come_at_their_times(scene: cf.Scene):
         simulation.add_callback(print, interval=math.inf)
     with pytest.raises(ValueError, match="at least 1"):
         simulation.add_callback(print, steps=0)
+    with pytest.raises(TypeError, match="cannot be called"):
+        simulation.add_callback(3, steps=1)
+    with pytest.raises(TypeError):
+        simulation.add_callback(print, steps=2.5)
+    with pytest.raises(ValueError, match="until"):
+        simulation.run(until=math.nan)
+
+
+@pytest.mark.parametrize(("interval", "pieces"), [(0.1, [0.3, 0.7]), (0.3, [0.9]), (0.05, [0.15, 0.35, 1.1])])
+def test_multiples_of_an_interval_are_times_but_for_rounding(interval: float, pieces: list[float]):
+    scene = cf.Scene.shipped("circle").with_values({"time.end": 1.2})
+    simulation = cf.Simulation(scene)
+    seen: list[float] = []
+    simulation.add_callback(lambda now: seen.append(now.time), interval=interval)
+    for until in pieces:
+        assert simulation.run(until=until) and simulation.time == until
+    assert not simulation.run() and simulation.status == "end-time"
+    np.testing.assert_allclose(seen, interval * np.arange(1, round(1.2 / interval) + 1), rtol=1e-9)
+    assert simulation.result().steps["size"].min() > 1e-9 * interval
+
+
+def test_callbacks_that_are_due_with_one_that_stops_are_called(scene: cf.Scene):
+    simulation = cf.Simulation(scene)
+    seen: list[float] = []
+
+    def stop(_: cf.Simulation) -> None:
+        raise StopIteration
+
+    simulation.add_callback(stop, interval=0.02)
+    simulation.add_callback(lambda now: seen.append(now.time), interval=0.01)
+    while simulation.run():
+        pass
+    np.testing.assert_allclose(seen, [0.01, 0.02, 0.03, 0.04, 0.05])
+
+
+def test_the_progress_callback_stops_a_run_with_a_schedule(scene: cf.Scene):
+    simulation = cf.Simulation(scene)
+    seen: list[int] = []
+    simulation.add_callback(lambda now: seen.append(now.steps), steps=1)
+
+    def stop(progress: cf.Progress) -> None:
+        if progress.steps == 3:
+            raise StopIteration
+
+    assert simulation.run(callback=stop)
+    assert (simulation.steps, seen) == (3, [1, 2, 3])
+
+
+def test_a_simulation_that_is_over_stays_so(tmp_path: Path):
+    for values in [{}, {"time.stop_at_equilibrium": True, "time.end": 1e6}]:
+        simulation = cf.Simulation(cf.Scene.shipped("figure_eight").with_values({"time.end": 0.01, **values}))
+        simulation.run()
+        simulation.checkpoint(tmp_path / "checkpoint")
+        resumed = cf.Simulation.resume(tmp_path / "checkpoint")
+        assert resumed.done and resumed.status == simulation.status
+        assert not resumed.run() and not resumed.step()
+        assert (resumed.steps, resumed.time) == (simulation.steps, simulation.time)
+        np.testing.assert_array_equal(resumed.result().position, simulation.result().position)
+
+
+def test_states_and_results_travel_between_processes(scene: cf.Scene):
+    simulation = cf.Simulation(scene)
+    simulation.step()
+    state = pickle.loads(pickle.dumps(simulation.state))
+    np.testing.assert_array_equal(state.density["protein"], simulation.state.density["protein"])
+    assert (state.time, state.energy) == (simulation.time, simulation.state.energy)
+    result = simulation.result()
+    other = copy.deepcopy(result)
+    np.testing.assert_array_equal(other.position, result.position)
+    assert (other.status, other.scene) == (result.status, result.scene)
 
 
 def test_a_callback_stops_the_run_and_it_goes_on(scene: cf.Scene):
@@ -106,11 +178,21 @@ def test_ctrl_c_leaves_a_simulation_that_goes_on(endless: cf.Scene):
     timer = threading.Timer(0.5, signal.raise_signal, [signal.SIGINT])
     timer.start()
     started = time.monotonic()
-    assert simulation.run()
+    with pytest.raises(KeyboardInterrupt):
+        simulation.run()
     assert time.monotonic() - started < 1.5
     timer.join()
     steps = simulation.steps
     assert simulation.step() and simulation.steps == steps + 1
+    # No loop around short runs, and no schedule, can keep it.
+    simulation.add_callback(lambda _: None, steps=1)
+    timer = threading.Timer(0.3, signal.raise_signal, [signal.SIGINT])
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        while simulation.run(until=simulation.time + 1e-6):
+            pass
+    timer.join()
+    assert not simulation.done
 
 
 def test_the_arrays_of_a_state_are_its_own(scene: cf.Scene):

@@ -63,3 +63,22 @@ def test_calls_on_one_system_do_not_hold_the_interpreter():
     with ThreadPoolExecutor(len(states)) as pool:
         found = list(pool.map(lambda y: [system.rate(y) for _ in range(20)][-1], states))
     assert all(np.array_equal(a, b) for a, b in zip(found, expected))
+
+
+def test_calls_out_of_order_are_refused(system):
+    y = system.initial
+    with pytest.raises(ValueError, match="linearise first"):
+        system.jacobian_product(y)
+    with pytest.raises(ValueError, match="linearise first"):
+        system.factorise(1e-6)
+    system.linearise(y)
+    with pytest.raises(ValueError, match="factorise first"):
+        system.precondition(y.copy())
+    for gamma in (np.nan, np.inf, -1.0):
+        with pytest.raises(ValueError, match="gamma"):
+            system.factorise(gamma)
+
+
+def test_an_energy_that_is_not_finite_is_named():
+    with pytest.raises(cf.SetupError, match="`local` is not finite"):
+        cf.System(cf.Scene.shipped("circle").with_values({"energy.local.expression": "ln(kappa - 10)"}))

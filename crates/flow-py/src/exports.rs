@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use flow_core::output::picture::{NodalLines, Options, PictureError, plot};
-use flow_core::output::{StorageError, hdf5_file};
+use flow_core::output::{StorageError, atomic_file, hdf5_file};
 use flow_core::run::{Provenance, nodal_polylines};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -16,6 +16,18 @@ use crate::record::Record;
 pub fn file_bytes<'py>(py: Python<'py>, record: &Record) -> PyResult<Bound<'py, PyBytes>> {
     let bytes = detached::<_, StorageError>(py, || hdf5_file::to_bytes(&record.core))?;
     Ok(PyBytes::new(py, &bytes))
+}
+
+/// Checks that [`write_file`] can write to `path` now.
+#[pyfunction]
+pub fn check_writable(py: Python<'_>, path: PathBuf, replace: bool) -> PyResult<()> {
+    detached(py, || atomic_file::check_writable(&path, replace))
+}
+
+/// Writes `data` to a file that appears at once, by the rules of all files of ours.
+#[pyfunction]
+pub fn write_file(py: Python<'_>, path: PathBuf, data: &[u8], replace: bool) -> PyResult<()> {
+    detached(py, || atomic_file::write(&path, data, replace))
 }
 
 /// Draws `record` into a PNG or SVG file.

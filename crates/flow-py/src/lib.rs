@@ -19,12 +19,22 @@ mod watcher;
 /// The extension module.
 #[pyo3::pymodule]
 mod _curveflow {
+    use pyo3::prelude::*;
+
+    /// Loads NumPy's functions now: a signal that arrives while they are loaded later, for the first array, would be a panic.
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.py().import("numpy")?;
+        crate::arrays::vector::<f64>(module.py(), Vec::new());
+        Ok(())
+    }
+
     /// Version of the package.
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");
 
     #[pymodule_export]
-    use super::exports::{file_bytes, picture, provenance};
+    use super::exports::{check_writable, file_bytes, picture, provenance, write_file};
     #[pymodule_export]
     use super::operators::{energy, flow_map, geometry, helmholtz, incompressibility, normal_force};
     #[pymodule_export]

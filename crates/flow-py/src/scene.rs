@@ -1,5 +1,7 @@
 //! Scenes: text in, text out.
 
+use std::path::PathBuf;
+
 use flow_core::run;
 use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyValueError;
@@ -22,9 +24,9 @@ pub struct Scene {
 impl Scene {
     /// Reads a scene file.
     #[staticmethod]
-    fn read(py: Python<'_>, path: String) -> PyResult<Self> {
+    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let core = detached(py, || run::Scene::read(&path))?;
-        Ok(Self { core, source_name: path })
+        Ok(Self { core, source_name: path.display().to_string() })
     }
 
     /// Checks the text of a scene after writing the changes (key, value) into it.
@@ -51,6 +53,12 @@ impl Scene {
     fn of_record(py: Python<'_>, record: &Record) -> PyResult<Self> {
         let core = detached(py, || record.core.to_scene())?;
         Ok(Self { core, source_name: "scene".to_owned() })
+    }
+
+    /// This scene with points that were read from a file standing in it.
+    fn self_contained(&self, py: Python<'_>) -> PyResult<Self> {
+        let core = detached(py, || self.core.self_contained(&self.source_name))?;
+        Ok(Self { core, source_name: self.source_name.clone() })
     }
 
     /// Title.

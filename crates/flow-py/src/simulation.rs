@@ -68,7 +68,7 @@ impl Simulation {
             .map(core::StopReason::name))
     }
 
-    /// At most `steps` steps until `time`; true if there is more to do. The callback is that of `run`.
+    /// At most `steps` steps until `time`; false if it is over, or the callback, which is that of `run`, stops it. Ctrl-C is raised.
     fn run_until(
         &self,
         py: Python<'_>,
@@ -84,7 +84,7 @@ impl Simulation {
         simulation.go_on();
         let mut watcher = Watcher::new(callback, interval);
         let more = detached::<_, StorageError>(py, || Ok(simulation.run_until(time, steps, &mut watcher)))?;
-        watcher.raised.map_or(Ok(more), Err)
+        watcher.raised.or(watcher.interrupt).map_or(Ok(more), Err)
     }
 
     /// The state at hand: time, energy, dissipation, length, area; position, curvature, metric, normal velocity and each

@@ -1,9 +1,10 @@
 //! The system dy/dt = f(y) of a scene, for integrators from outside.
 
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use flow_core::integrator::{Finish, Problem};
-use flow_core::run::{Membrane, Setup, SetupError};
+use flow_core::run::{Membrane, Setup, SetupError, Simulation};
 use numpy::{PyArray1, PyReadonlyArray1, PyReadwriteArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -16,6 +17,9 @@ use crate::scene::Scene;
 #[pyclass(frozen, module = "curveflow._curveflow")]
 pub struct System {
     membrane: Mutex<Membrane>,
+    /// Whether J, and the preconditioner, are of any state.
+    is_linearised: AtomicBool,
+    is_factorised: AtomicBool,
     initial: Py<PyArray1<f64>>,
     size: usize,
     blocks: Vec<(usize, usize)>,
@@ -44,6 +48,14 @@ impl System {
         self.call(py, |membrane| function(membrane, from, to))
     }
 
+    /// What needs an earlier call.
+    fn after(done: &AtomicBool, call: &str) -> PyResult<()> {
+        if done.load(Ordering::Acquire) {
+            return Ok(());
+        }
+        Err(PyValueError::new_err(format!("call {call} first")))
+    }
+
     fn check(&self, length: usize) -> PyResult<()> {
         let size = self.size;
         if length == size {
@@ -57,17 +69,17 @@ impl System {
 impl System {
     #[new]
     fn new(py: Python<'_>, scene: &Scene) -> PyResult<Self> {
-        let (membrane, state, finish) = detached::<_, SetupError>(py, || {
+        let (membrane, state) = detached::<_, SetupError>(py, || {
             let Setup { mut membrane, mut state, .. } = Setup::new(&scene.core)?;
-            let finish = membrane.finish(0.0, &mut state);
-            Ok((membrane, state, finish))
+            if membrane.finish(0.0, &mut state) == Finish::NotFinite {
+                Simulation::new(&scene.core)?; // a run names the term that is not finite
+            }
+            Ok((membrane, state))
         })?;
-        if finish == Finish::NotFinite {
-            return Err(PyValueError::new_err("the energy is not finite at the initial state"));
-        }
         let blocks = membrane.blocks().into_iter().map(|block| (block.start, block.end)).collect();
         let (size, initial) = (state.len(), vector(py, state).unbind());
-        Ok(Self { membrane: Mutex::new(membrane), initial, size, blocks })
+        let [is_linearised, is_factorised] = [false; 2].map(AtomicBool::new);
+        Ok(Self { membrane: Mutex::new(membrane), is_linearised, is_factorised, initial, size, blocks })
     }
 
     /// The initial state: one array, which cannot be written to.
@@ -99,7 +111,9 @@ impl System {
         y: PyReadonlyArray1<'_, f64>,
         mut rate: PyReadwriteArray1<'_, f64>,
     ) -> PyResult<()> {
-        self.with_arrays(py, &y, &mut rate, Membrane::linearise)
+        self.with_arrays(py, &y, &mut rate, Membrane::linearise)?;
+        self.is_linearised.store(true, Ordering::Release);
+        Ok(())
     }
 
     /// Jv into `out`.
@@ -109,16 +123,24 @@ impl System {
         v: PyReadonlyArray1<'_, f64>,
         mut out: PyReadwriteArray1<'_, f64>,
     ) -> PyResult<()> {
+        Self::after(&self.is_linearised, "linearise")?;
         self.with_arrays(py, &v, &mut out, Membrane::jacobian_product)
     }
 
     /// Prepares an approximate inverse of I − γJ; false if that fails.
     fn factorise(&self, py: Python<'_>, gamma: f64) -> PyResult<bool> {
-        self.call(py, |membrane| membrane.factorise(gamma))
+        Self::after(&self.is_linearised, "linearise")?;
+        if !(gamma.is_finite() && gamma >= 0.0) {
+            return Err(PyValueError::new_err(format!("gamma = {gamma} must be finite and at least 0")));
+        }
+        let factorised = self.call(py, |membrane| membrane.factorise(gamma))?;
+        self.is_factorised.store(factorised, Ordering::Release);
+        Ok(factorised)
     }
 
     /// The approximate solution of (I − γJ)x = r, in place.
     fn precondition(&self, py: Python<'_>, mut r: PyReadwriteArray1<'_, f64>) -> PyResult<()> {
+        Self::after(&self.is_factorised, "factorise")?;
         let r = r.as_slice_mut()?;
         self.check(r.len())?;
         self.call(py, |membrane| membrane.precondition(r))

@@ -19,12 +19,14 @@ pub struct Watcher {
     called: Option<Instant>,
     /// What the callback or a signal handler raised, other than to stop the run.
     pub raised: Option<PyErr>,
+    /// Ctrl-C, if that stopped it.
+    pub interrupt: Option<PyErr>,
 }
 
 impl Watcher {
     /// Calls `callback` after the first step and then after every step that ends `interval` or more after the last call.
     pub fn new(callback: Option<Py<PyAny>>, interval: Duration) -> Self {
-        Self { callback, interval, checked: Instant::now(), called: None, raised: None }
+        Self { callback, interval, checked: Instant::now(), called: None, raised: None, interrupt: None }
     }
 
     fn look(&mut self, py: Python<'_>, progress: &Progress, call: bool) -> PyResult<()> {
@@ -45,7 +47,14 @@ impl Observer for Watcher {
         if !call && now.duration_since(self.checked) < BETWEEN_SIGNALS {
             return ControlFlow::Continue(());
         }
-        let looked = Python::attach(|py| self.look(py, progress, call).map_err(|error| other(py, error)));
+        let looked = Python::attach(|py| {
+            self.look(py, progress, call).map_err(|error| {
+                if error.is_instance_of::<PyKeyboardInterrupt>(py) {
+                    self.interrupt = Some(error.clone_ref(py));
+                }
+                other(py, error)
+            })
+        });
         self.checked = Instant::now();
         if call {
             self.called = Some(self.checked);

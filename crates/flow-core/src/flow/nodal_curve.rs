@@ -10,7 +10,9 @@ use super::flow_map::FlowMap;
 use super::gauge::{Gauge, MetricRole};
 use super::normal_mobility::{Incompressible, MobilityError, NormalMobility};
 use crate::geometry::{Complex64, Grading, GradingError, Layout, PeriodicGrid, SpectralLayout};
-use crate::operators::{CurveHelmholtz, Derivative, DerivativeFamily, Helmholtz};
+use crate::operators::{
+    CurveHelmholtz, Derivative, DerivativeFamily, FactorisationError, Helmholtz, HelmholtzError,
+};
 
 impl MetricRole {
     /// The role that a nodal `metric` has in a gauge that keeps it but for its mean.
@@ -38,8 +40,16 @@ pub enum NodalError {
     #[error("`{field}` is {value} at node {node}: it must be finite")]
     NotFinite { field: &'static str, node: usize, value: f64 },
     /// The metric is no metric.
-    #[error("`metric`: {0}")]
-    Metric(#[from] GradingError),
+    #[error(
+        "`metric` is {value:?} at s = {parameter:.6}: it must be positive, and not vanish beside its largest value"
+    )]
+    NotPositive { parameter: f64, value: f64 },
+    /// Sharper than the distance of the nodes.
+    #[error(
+        "`metric` is not resolved by its {nodes} nodes: interpolated from them to s = {parameter:.6} it is off by {error:.1e} of \
+         its value, and at most {bound:.0e} is allowed; give more nodes, or a smoother metric"
+    )]
+    NotResolved { nodes: usize, parameter: f64, error: f64, bound: f64 },
     /// The nodes are not where the gauge has them.
     #[error(
         "`metric` varies by {spread:.1e} of its mean, and the gauge \"scaled-arc-length\" keeps it uniform: use gauge = \
@@ -47,8 +57,33 @@ pub enum NodalError {
     )]
     NotUniform { spread: f64 },
     /// H has no inverse.
-    #[error("`curvature`: {0}")]
-    Mobility(#[from] MobilityError),
+    #[error(
+        "`curvature` has |Γ|∫κ² dσ = {value:.3e}, which is 4π² or more on every closed curve, and finite: no closed curve has it"
+    )]
+    NoCurvature { value: f64 },
+    /// A pivot of H vanished.
+    #[error("`curvature` makes −Δ_s + κ² singular: {0}")]
+    Singular(FactorisationError),
+}
+
+impl From<GradingError> for NodalError {
+    fn from(error: GradingError) -> Self {
+        match error {
+            GradingError::NotPositive { parameter, value } => Self::NotPositive { parameter, value },
+            GradingError::NotResolved { nodes, parameter, error, bound } => {
+                Self::NotResolved { nodes, parameter, error, bound }
+            }
+        }
+    }
+}
+
+impl From<HelmholtzError> for NodalError {
+    fn from(error: HelmholtzError) -> Self {
+        match error {
+            HelmholtzError::NoCurvature { value } => Self::NoCurvature { value },
+            HelmholtzError::Singular(error) => Self::Singular(error),
+        }
+    }
 }
 
 /// Rates of the fields at fixed parameter under a normal velocity, one value per node.
@@ -145,7 +180,7 @@ impl NodalCurve {
         self.check_field("right_hand_side", f)?;
         self.check_nodes()?;
         let mut operator = CurveHelmholtz::new(&self.derivative, self.layout.nodes());
-        operator.set(self.at.at_nodes(0), self.at.length()).map_err(MobilityError::from)?;
+        operator.set(self.at.at_nodes(0), self.at.length())?;
         let mut u = vec![0.0; f.len()];
         operator.solve(f, &mut u);
         Ok(u)
@@ -159,7 +194,7 @@ impl NodalCurve {
         self.check_field("force", f)?;
         self.check_nodes()?;
         let mut operator = Incompressible::new(&self.derivative, self.layout.nodes());
-        operator.set(&self.at)?;
+        operator.set(&self.at).map_err(|MobilityError::Helmholtz(error)| error)?;
         let mut v = vec![0.0; f.len()];
         operator.apply(&self.at, f, &mut v);
         Ok(v)

@@ -79,6 +79,14 @@ impl CurveGeometry {
         if let Some(node) = metric.iter().position(|g| *g <= STOPS * length) {
             return Err(GeometryError::Stops { node, metric: metric[node], mean: length });
         }
+        // A node that is repeated makes waves, not a metric of zero.
+        let chord = |node: usize| {
+            let ([x, y], [next_x, next_y]) = (position[node], position[(node + 1) % nodes]);
+            nodes as f64 * (next_x - x).hypot(next_y - y)
+        };
+        if let Some(node) = (0..nodes).find(|node| chord(*node) <= STOPS * length) {
+            return Err(GeometryError::Stops { node, metric: chord(node), mean: length });
+        }
         let curvature: Vec<f64> =
             (0..nodes).map(|i| (dx[i] * ddy[i] - dy[i] * ddx[i]) / metric[i].powi(3)).collect();
         let (tangent_angle, turning_number) = continued_angles(&dx, &dy);
@@ -203,5 +211,9 @@ mod tests {
         assert!(matches!(CurveGeometry::of(&position), Err(GeometryError::NotFinite { node: 5, .. })));
         let line: Vec<[f64; 2]> = (0..16).map(|i| [(TAU * f64::from(i) / 16.0).cos(), 0.0]).collect();
         assert!(matches!(CurveGeometry::of(&line), Err(GeometryError::Stops { node: 0, .. })));
+        // A last node that is the first one, but for rounding.
+        let mut closed = ellipse(64, 1.0);
+        closed.push([closed[0][0], closed[0][1] - 2e-16]);
+        assert!(matches!(CurveGeometry::of(&closed), Err(GeometryError::Stops { node: 64, .. })));
     }
 }

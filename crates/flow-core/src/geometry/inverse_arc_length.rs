@@ -16,7 +16,8 @@ impl ScatteredPoints {
     pub fn at_fractions(grading: &Grading, fractions: &[f64]) -> Self {
         let nodes = grading.nodes();
         let mut grid = PeriodicGrid::new(nodes);
-        let mut spectra = [vec![Complex64::default(); grid.modes()], vec![Complex64::default(); grid.modes()]];
+        let mut spectra =
+            [vec![Complex64::default(); grid.modes()], vec![Complex64::default(); grid.modes()]];
         grid.transform(grading.shift(), &mut spectra[0]);
         grid.transform(grading.weight(), &mut spectra[1]);
         let starts = Starts::new(grading, &mut grid, &spectra[1]);
@@ -70,8 +71,7 @@ impl Starts {
         grid.synthesise(&spectrum, &mut slopes);
         // s′ = 1/w, s″ = −w′/w³.
         let derivative = |(inverse, slope): (&f64, &f64)| [*inverse, -slope * inverse.powi(3)];
-        let mut derivatives: Vec<[f64; 2]> =
-            grading.inverse().iter().zip(&slopes).map(derivative).collect();
+        let mut derivatives: Vec<[f64; 2]> = grading.inverse().iter().zip(&slopes).map(derivative).collect();
         derivatives.extend_from_within(..1);
         let mut fractions = grading.fractions();
         fractions.push(1.0);
@@ -120,7 +120,8 @@ mod tests {
         };
         for nodes in [32, 45, 384] {
             let grading = Grading::new(&samples(nodes)).unwrap();
-            let fractions: Vec<f64> = (0..100).map(|i| 0.0099 * f64::from(i)).rev().chain([0.0, 1.0]).collect();
+            let fractions: Vec<f64> =
+                (0..100).map(|i| 0.0099 * f64::from(i)).rev().chain([0.0, 1.0]).collect();
             let mut points = ScatteredPoints::at_fractions(&grading, &fractions);
             let mut grid = PeriodicGrid::new(nodes);
             let wave: Vec<f64> = (0..nodes).map(|i| (TAU * i as f64 / nodes as f64).sin()).collect();

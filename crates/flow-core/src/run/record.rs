@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::provenance::Provenance;
-use super::scene::{Curve, Scene, SceneError, Shape};
+use super::scene::{Scene, SceneError, names_a_file, with_points};
 use super::seconds::Seconds;
 use crate::integrator::{Counters, Rejections};
 
@@ -91,7 +91,7 @@ impl StepLog {
 }
 
 /// Why a run stopped.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum StopReason {
     /// The end time was reached.
     EndTime,
@@ -99,7 +99,7 @@ pub enum StopReason {
     Equilibrium,
     /// The curve crossed itself more often than at the start, and the scene says to stop then.
     Contact,
-    /// An observer asked for it (signal, Ctrl-C, limit).
+    /// It was stopped from outside: by an observer (signal, Ctrl-C, limit), or since nobody asked for more steps.
     Interrupted,
     /// The run failed; the last good state is the last frame. Holds the message, which is all that a file has of it;
     /// [`Simulation::failure`](super::Simulation::failure) has the error.
@@ -126,7 +126,7 @@ impl StopReason {
             Self::EndTime => "the end time was reached",
             Self::Equilibrium => "the dissipation fell below the bound for equilibrium",
             Self::Contact => "the curve came to cross itself more often than at the start",
-            Self::Interrupted => "an observer asked the run to stop",
+            Self::Interrupted => "the run was stopped before its end",
             Self::Failed(message) => message,
         }
     }
@@ -188,16 +188,6 @@ impl Record {
         if !names_a_file(&self.scene) {
             return Scene::parse(&self.scene, NAME);
         }
-        let Curve { shape, turning_number } = Scene::parse(&self.resolved_scene, NAME)?.curve;
-        let Shape::Points { points } = shape else { return Scene::parse(&self.scene, NAME) };
-        let curve =
-            format!("{{ shape = \"points\", turning_number = {turning_number}, points = {points:?} }}");
-        Scene::parse_with(&self.scene, NAME, &[("curve".to_owned(), curve)])
+        with_points(&self.scene, &Scene::parse(&self.resolved_scene, NAME)?.curve, NAME)
     }
-}
-
-/// Whether the points of the curve are in another file.
-fn names_a_file(scene: &str) -> bool {
-    let table: Option<toml::Table> = scene.parse().ok();
-    table.is_some_and(|table| table.get("curve").is_some_and(|curve| curve.get("file").is_some()))
 }

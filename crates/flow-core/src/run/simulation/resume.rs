@@ -35,6 +35,8 @@ pub struct Memory {
     mesh: Mesh,
     remapped_at: u64,
     switches: u64,
+    /// Why it is over; none if there is more to do.
+    stopped: Option<StopReason>,
 }
 
 impl Memory {
@@ -82,7 +84,7 @@ fn is_sequence(times: impl Iterator<Item = f64> + Clone) -> bool {
 }
 
 impl Simulation {
-    /// What it takes to go on from the last accepted state. A run that was interrupted goes on from there.
+    /// What it takes to go on from the last accepted state. A run that was interrupted goes on from there, one that is over stays so.
     #[must_use]
     pub fn memory(&self) -> Memory {
         Memory {
@@ -99,6 +101,7 @@ impl Simulation {
             mesh: self.mesh.clone(),
             remapped_at: self.remapped_at,
             switches: self.switches,
+            stopped: self.stopped.clone().filter(|reason| *reason != StopReason::Interrupted),
         }
     }
 
@@ -191,6 +194,9 @@ impl Simulation {
         (simulation.mesh, simulation.remapped_at) = (memory.mesh, memory.remapped_at);
         simulation.switches = memory.switches;
         simulation.clocks = Clocks::started(clock, 0.0, Stopwatch::default());
+        if let Some(reason) = memory.stopped {
+            simulation.stop(reason);
+        }
         Ok(simulation)
     }
 }
