@@ -120,13 +120,13 @@ class Scene:
         Args:
             values: dotted keys and their values: ``{"accuracy.tolerance": 1e-4, "density.protein.initial": "0.5"}``.
                 Numbers, texts (formulas too), truth values, lists, arrays and the objects of whole tables are allowed;
-                missing keys are added.
+                missing keys are added, and ``None`` takes a key out.
 
         Raises:
             SceneError: what the changes make of the scene is not valid.
             TypeError: a value is of another type.
         """
-        changes = [(key, writing.value(key, value)) for key, value in values.items()]
+        changes = [(key, "" if value is None else writing.value(key, value)) for key, value in values.items()]
         # The points of this scene, not what their file holds by now, unless another file is named.
         native = self._native if "curve.file" in values else self._native.self_contained()
         return self._of(_curveflow.Scene.parse(native.text, native.source_name, changes))

@@ -48,6 +48,15 @@ def test_values_can_be_changed(circle: cf.Scene):
     assert circle.title == "Circle"
 
 
+def test_none_takes_a_key_out():
+    scene = cf.Scene.shipped("three_fold").with_values(
+        {"output.frames": None, "output.spacing": None, "output.times": [0.1, 0.2]}
+    )
+    assert scene.output.times == (0.1, 0.2)
+    with pytest.raises(cf.SceneError, match=r"output\.frmes.*not there"):
+        scene.with_values({"output.frmes": None})
+
+
 def test_values_reach_densities_by_name():
     scene = cf.Scene.shipped("three_fold").with_values({"density.protein.initial": "0.5 + 0.1*cos(2*pi*s)"})
     assert 'initial = "0.5 + 0.1*cos(2*pi*s)"' in scene.to_toml()

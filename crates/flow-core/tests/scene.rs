@@ -189,3 +189,18 @@ fn set_changes_adds_and_creates() {
     assert_eq!(again, scene);
     assert_eq!(set(text, &[]), parse(text));
 }
+
+#[test]
+fn an_empty_value_takes_a_key_out() {
+    let text = format!("title = 'small'\n{SMALL}[output]\nframes = 3\nspacing = 'log'\n");
+    let times = set(&text, &[("output.frames", ""), ("output.spacing", ""), ("output.times", "[0.1, 0.2]")]);
+    assert_eq!(times.output.frames, Frames::At { times: vec![0.1, 0.2] });
+    assert_eq!(parse(times.text()).output, times.output);
+    assert_eq!(set(&text, &[("title", "")]).title, "");
+    assert_eq!(set(&text, &[("output", "")]).output, parse(SMALL).output);
+    for key in ["output.frmes", "energy.area.penalty", "density.0", "no"] {
+        let changes = [(key.to_owned(), String::new())];
+        let error = Scene::parse_with(&text, "test.toml", &changes).unwrap_err().to_string();
+        assert!(error.contains("cannot be set"), "{error}");
+    }
+}

@@ -17,7 +17,7 @@ pub struct SceneArgs {
     /// Take the scene of this result file: on the same machine, the same program gives the same states again.
     #[arg(long, value_name = "RESULT.h5", conflicts_with = "scene")]
     pub from: Option<PathBuf>,
-    /// Change a value of the scene, e.g. `--set accuracy.tolerance=1e-6`; may be repeated.
+    /// Change a value of the scene, e.g. `--set accuracy.tolerance=1e-6`, or take it out, `--set output.frames=`; may be repeated.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
     pub set: Vec<(String, String)>,
 }

@@ -107,7 +107,7 @@ impl Scene {
 
     /// Checks the text of a scene after changing some of its values. Each change is a dotted key and a value:
     /// `accuracy.tolerance` and `1e-6`, `density.0.initial` or `density.protein.initial` and `0.5 + 0.1*s`. A value that
-    /// is not TOML is taken as text. Missing keys and tables are added; later changes win.
+    /// is not TOML is taken as text, and an empty one takes the key out. Missing keys and tables are added; later changes win.
     /// # Errors
     /// [`SceneError`]: the text, or what the changes make of it, is not a scene.
     pub fn parse_with(

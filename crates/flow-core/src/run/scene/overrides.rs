@@ -1,4 +1,5 @@
-//! Changes to a scene from outside: `--set accuracy.tolerance=1e-6`, `--set density.protein.initial=0.5`.
+//! Changes to a scene from outside: `--set accuracy.tolerance=1e-6`, `--set density.protein.initial=0.5`; `--set output.frames=`
+//! takes the key out.
 
 use std::borrow::Cow;
 
@@ -56,15 +57,17 @@ pub(super) fn apply<'i>(document: &mut DeTable<'i>, overrides: &'i [Override<'i>
     }
 }
 
-/// A TOML value, or else the text itself.
-fn value(text: &str) -> DeValue<'_> {
-    DeValue::parse(text).map_or_else(|_| DeValue::String(Cow::Borrowed(text)), Spanned::into_inner)
+/// A TOML value, or else the text itself; none for an empty text.
+fn value(text: &str) -> Option<DeValue<'_>> {
+    let parsed =
+        || DeValue::parse(text).map_or_else(|_| DeValue::String(Cow::Borrowed(text)), Spanned::into_inner);
+    (!text.is_empty()).then(parsed)
 }
 
 fn set<'i>(
     document: &mut DeTable<'i>,
     path: &'i str,
-    value: DeValue<'i>,
+    value: Option<DeValue<'i>>,
 ) -> Result<(), (String, &'static str)> {
     let segments: Vec<&str> = path.split('.').collect();
     let shaped =
@@ -78,6 +81,11 @@ fn set<'i>(
     while let [segment, tail @ ..] = rest {
         rest = tail;
         if tail.is_empty() {
+            let Some(value) = value else {
+                let taken = table.remove(*segment).map(drop);
+                return taken
+                    .ok_or_else(|| ("it is not there to be taken out".to_owned(), "give it a value"));
+            };
             // An empty span marks what is not in the file.
             let (key, value) = (Spanned::new(0..0, Cow::Borrowed(*segment)), Spanned::new(0..0, value));
             table.insert(key, value);
@@ -91,7 +99,9 @@ fn set<'i>(
                 rest = &tail[1..];
                 let element = element(array, segment, tail[0])?;
                 if rest.is_empty() {
-                    *element = value;
+                    let absent =
+                        || ("entries of a list cannot be taken out".to_owned(), "set the whole list");
+                    *element = value.ok_or_else(absent)?;
                     return Ok(());
                 }
                 let DeValue::Table(inner) = element else {
