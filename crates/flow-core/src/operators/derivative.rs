@@ -123,6 +123,22 @@ impl Derivative {
     #[must_use]
     pub fn graded(family: DerivativeFamily, grid: &PeriodicGrid, grading: Option<Arc<Grading>>) -> Self {
         let midpoints = grading.is_some();
+        Self::build(family, grid, grading, midpoints)
+    }
+
+    /// The same with the midpoints for flux points, whatever the family: for energies of slopes, which at the nodes cost the sawtooth
+    /// nothing.
+    #[must_use]
+    pub fn staggered(family: DerivativeFamily, grid: &PeriodicGrid, grading: Option<Arc<Grading>>) -> Self {
+        Self::build(family, grid, grading, true)
+    }
+
+    fn build(
+        family: DerivativeFamily,
+        grid: &PeriodicGrid,
+        grading: Option<Arc<Grading>>,
+        midpoints: bool,
+    ) -> Self {
         let to_flux: Vec<_> =
             (0..grid.modes()).map(|mode| Self::flux_symbol(family, midpoints, grid, mode)).collect();
         let inverse_to_flux = to_flux

@@ -9,7 +9,7 @@ use super::term_parts::TermParts;
 use crate::flow::{Carried, EnergySum, ExcessDensity, FlowMap, GradientFlow, Incompressible};
 use crate::geometry::vectors::mean;
 use crate::geometry::{Complex64, Layout, PeriodicGrid};
-use crate::operators::{Derivative, Helmholtz};
+use crate::operators::{Derivative, DerivativeFamily, Helmholtz};
 
 /// Names of the values per frame of a scene with a membrane term.
 const OF_THE_MEMBRANE: [&str; 2] = ["incompressible_distance", "velocity_residual"];
@@ -23,7 +23,8 @@ pub struct Diagnostics {
     /// The flow of the energy without the membrane term, made incompressible.
     incompressible: Option<GradientFlow>,
     membrane: Option<MembraneTerm>,
-    /// Takes fields at flux points to the nodes: frames on other nodes have other flux points.
+    /// Takes fields at flux points to the nodes: frames on other nodes have other flux points, and those of the Fourier family are the
+    /// nodes but for the sake of slopes.
     to_nodes: Option<FluxPoints>,
 }
 
@@ -87,7 +88,9 @@ impl Diagnostics {
             .then(|| incompressible(scene, initial, layout, derivative));
         let density =
             fields.contains(&OutputField::EnergyDensity).then(|| energy_terms(scene, initial, nodes));
-        let staggered = derivative.interpolation().is_some() && Adaptation::of(scene).is_some();
+        let moves = Adaptation::of(scene).is_some();
+        let for_slopes = derivative.family() == DerivativeFamily::Fourier && derivative.grading().is_none();
+        let staggered = derivative.interpolation().is_some() && (moves || for_slopes);
         let to_nodes = staggered.then(|| {
             let grid = PeriodicGrid::new(nodes);
             FluxPoints { spectrum: vec![Complex64::default(); grid.modes()], grid }

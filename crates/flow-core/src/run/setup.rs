@@ -168,8 +168,13 @@ pub(super) fn flow(
     let layout = layout(scene, nodes);
     let grid = PeriodicGrid::new(nodes);
     let family = family(scene, grading.is_some());
-    let derivative = Derivative::graded(family, &grid, grading);
     let terms = energy_terms(scene, initial, nodes)?;
+    let build = if terms.iter().any(|term| term.has_slope_density()) {
+        Derivative::staggered
+    } else {
+        Derivative::graded
+    };
+    let derivative = build(family, &grid, grading);
     let diagnostics = Diagnostics::new(scene, initial, layout, &derivative)?;
     let energy = EnergySum::new(terms, layout, &grid, &derivative);
     let map = FlowMap::in_gauge(scene.flow.gauge.rule(), layout, &grid, &derivative);
