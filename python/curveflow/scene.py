@@ -129,11 +129,16 @@ class Scene:
         changes = [(key, "" if value is None else writing.value(key, value)) for key, value in values.items()]
         # The points of this scene, not what their file holds by now, unless another file is named.
         native = self._native if "curve.file" in values else self._native.self_contained()
+        if "curve.file" in values and native.holds_points and "curve.points" not in values:
+            changes.insert(0, ("curve.points", ""))
         return self._of(_curveflow.Scene.parse(native.text, native.source_name, changes))
 
     @property
     def text(self) -> str:
-        """The scene as given, verbatim; of objects, or after :meth:`with_values`, TOML without comments."""
+        """The scene as given, verbatim; of objects, or after :meth:`with_values`, TOML without comments.
+
+        Points that were read from a file stand in it after :meth:`with_values`, in copies and after pickling.
+        """
         return self._native.text
 
     def to_toml(self) -> str:

@@ -8,7 +8,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from operator import index
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any
+
+import numpy as np
 
 from . import _curveflow
 from .result import Array, Result
@@ -49,13 +51,39 @@ class State:
 
 
 def _state(values: dict[str, Any]) -> State:
+    for array in [*values.values(), *values["density"].values()]:
+        if isinstance(array, np.ndarray):
+            array.flags.writeable = False
     return State(**(values | {"density": MappingProxyType(values["density"])}))
 
 
-class _Scheduled(NamedTuple):
+@dataclass(slots=True)
+class _Scheduled:
+    """A callback, and how many of its multiples are behind."""
+
     callback: Callable[[Simulation], object]
     interval: float | None
     steps: int | None
+    passed: int = 0
+
+    def number(self, time: float, steps: int) -> int:
+        """How many multiples there are up to now, but for rounding."""
+        if self.steps is not None:
+            return steps // self.steps
+        assert self.interval is not None
+        if self.interval <= _rounding(time, 0.0):
+            raise ValueError(f"interval = {self.interval} is below the rounding of the time {time}")
+        return math.floor((time + _rounding(time, self.interval)) / self.interval)
+
+    def pass_by(self, time: float, steps: int) -> bool:
+        """Leave the multiples up to now behind; returns whether there were any."""
+        before, self.passed = self.passed, self.number(time, steps)
+        return self.passed > before
+
+
+def _rounding(time: float, interval: float) -> float:
+    """Times that differ by less are the same multiple of ``interval``."""
+    return max(1e-9 * interval, 4 * math.ulp(time))
 
 
 class Simulation:
@@ -85,6 +113,8 @@ class Simulation:
     @classmethod
     def resume(cls, path: str | os.PathLike[str]) -> Simulation:
         """Go on from a checkpoint, with the same bits as if the simulation had not stopped; callbacks are not in it.
+
+        What was over, also by a failure, is over still.
 
         Raises:
             StorageError: the file is no checkpoint of this version, or is damaged.
@@ -173,7 +203,9 @@ class Simulation:
             raise ValueError(f"interval = {interval} must be positive and finite")
         if steps is not None and index(steps) < 1:
             raise ValueError(f"steps = {steps} must be at least 1")
-        self._scheduled.append(_Scheduled(callback, interval, steps))
+        scheduled = _Scheduled(callback, interval, steps)
+        scheduled.pass_by(self.time, self.steps)
+        self._scheduled.append(scheduled)
 
     def step(self) -> bool:
         """Take one accepted step; returns whether there is more to do.
@@ -181,7 +213,11 @@ class Simulation:
         Raises:
             KeyboardInterrupt: on Ctrl-C, after the step; the simulation can go on.
         """
-        return self._native.run_until(math.inf, 1, None, 0.0)
+        try:
+            return self._native.run_until(math.inf, 1, None, 0.0)
+        finally:
+            for scheduled in self._scheduled:
+                scheduled.pass_by(self.time, self.steps)
 
     def run(
         self,
@@ -191,6 +227,8 @@ class Simulation:
         callback: Callable[[Progress], object] | None = None,
     ) -> bool:
         """Run until a time, or to the end of the scene; returns whether there is more to do.
+
+        Callbacks of :meth:`add_callback` that were due when a run was stopped are called first.
 
         Args:
             until: simulated time at which the last step ends.
@@ -205,32 +243,33 @@ class Simulation:
         """
         if math.isnan(until):
             raise ValueError("until = nan must be a time")
+        goes_on = self._call_due()
         with watching(progress, callback) as (watch, interval):
-            while self.time < until and not self.done:
-                time, steps = self._next_call(until)
-                before = self.steps
-                goes_on = self._native.run_until(time, steps, watch, interval)
-                if not (self.steps == before or self._call_due()) or not goes_on:
-                    break
+            while goes_on and self.time < until and not self.done:
+                goes_on = self._native.run_until(*self._next_call(until), watch, interval)
+                goes_on = self._call_due() and goes_on
         return not self.done
 
     def _next_call(self, until: float) -> tuple[float, int]:
         time, steps = until, _ALL_STEPS
+        end = min(until, self._native.end)
         for scheduled in self._scheduled:
-            if scheduled.interval is not None:
-                time = min(time, _next_multiple(self.time, scheduled.interval, until))
             if scheduled.steps is not None:
-                steps = min(steps, scheduled.steps - self.steps % scheduled.steps)
+                steps = min(steps, (scheduled.passed + 1) * scheduled.steps - self.steps)
+            elif scheduled.interval is not None:
+                next_time = (scheduled.passed + 1) * scheduled.interval
+                # Where a run ends within rounding of a multiple, there is no other step for that.
+                if next_time < end - _rounding(end, scheduled.interval):
+                    time = min(time, next_time)
         return time, steps
 
     def _call_due(self) -> bool:
         """Call what is due; returns whether the run goes on."""
         goes_on = True
-        for callback, interval, steps in self._scheduled:
-            on_time = interval is not None and _is_multiple(self.time, interval)
-            if on_time or (steps is not None and self.steps % steps == 0):
+        for scheduled in self._scheduled:
+            if scheduled.pass_by(self.time, self.steps):
                 try:
-                    callback(self)
+                    scheduled.callback(self)
                 except StopIteration:
                     goes_on = False
         return goes_on
@@ -239,9 +278,6 @@ class Simulation:
         """What there is so far, as :func:`run` returns it."""
         return Result(self._native.record(), self._scene)
 
-    def __repr__(self) -> str:
-        return f"<Simulation {self.scene.title!r}: {self.status or 'under way'} at t = {self.time:.6g}, {self.steps} steps>"
-
     def checkpoint(self, path: str | os.PathLike[str]) -> None:
         """Write all that it takes to go on by :meth:`resume`; an existing file is replaced once the new one is whole.
 
@@ -249,21 +285,3 @@ class Simulation:
             StorageError: the file cannot be written.
         """
         self._native.checkpoint(path)
-
-
-def _rounding(time: float, interval: float) -> float:
-    """Times that differ by less are the same multiple of ``interval``."""
-    return max(1e-9 * interval, 4 * math.ulp(time))
-
-
-def _is_multiple(time: float, interval: float) -> bool:
-    return abs(time - round(time / interval) * interval) <= _rounding(time, interval)
-
-
-def _next_multiple(time: float, interval: float, until: float) -> float:
-    """The first multiple of ``interval`` after ``time``: ``until``, if only rounding is between them."""
-    rounding = _rounding(time, interval)
-    count = math.floor(time / interval)
-    while count * interval <= time + rounding:
-        count += 1
-    return until if abs(count * interval - until) <= rounding else count * interval

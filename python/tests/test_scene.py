@@ -103,6 +103,8 @@ def test_the_points_of_a_scene_do_not_change_with_their_file(tmp_path: Path, mon
     assert scene.with_values({"time.end": 0.02}).curve == scene.curve
     other = scene.with_values({"curve.file": "other.txt"}).curve
     assert isinstance(other, cf.Points) and other.points[0] == (2.0, 0.0)
+    chained = pickle.loads(pickled).with_values({"time.end": 0.02}).with_values({"curve.file": "other.txt"})
+    assert chained.curve == other
     (tmp_path / "ring.txt").unlink()
     assert copy.deepcopy(scene) == scene
 

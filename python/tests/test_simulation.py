@@ -146,6 +146,7 @@ def test_states_and_results_travel_between_processes(scene: cf.Scene):
     state = pickle.loads(pickle.dumps(simulation.state))
     np.testing.assert_array_equal(state.density["protein"], simulation.state.density["protein"])
     assert (state.time, state.energy) == (simulation.time, simulation.state.energy)
+    assert not state.position.flags.writeable and not state.density["protein"].flags.writeable
     result = simulation.result()
     other = copy.deepcopy(result)
     np.testing.assert_array_equal(other.position, result.position)
@@ -189,10 +190,47 @@ def test_ctrl_c_leaves_a_simulation_that_goes_on(endless: cf.Scene):
     timer = threading.Timer(0.3, signal.raise_signal, [signal.SIGINT])
     timer.start()
     with pytest.raises(KeyboardInterrupt):
-        while simulation.run(until=simulation.time + 1e-6):
+        while simulation.run(until=simulation.time + 1e-6, callback=lambda _: None):
             pass
     timer.join()
     assert not simulation.done
+
+
+def test_no_call_is_lost_and_none_comes_twice(scene: cf.Scene):
+    simulation = cf.Simulation(scene)
+    steps: list[int] = []
+    simulation.add_callback(lambda now: steps.append(now.steps), steps=1)
+
+    def interrupt(progress: cf.Progress) -> None:
+        if progress.steps == 3:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        simulation.run(callback=interrupt)
+    assert simulation.steps == 3
+    simulation.step()  # which calls nothing, and leaves nothing due
+    simulation.run(until=simulation.time * 1.5)
+    assert steps == [1, 2, *range(5, simulation.steps + 1)]
+    simulation = cf.Simulation(scene)
+    steps.clear()
+    simulation.add_callback(lambda now: steps.append(now.steps), steps=1)
+    with pytest.raises(KeyboardInterrupt):
+        simulation.run(callback=interrupt)
+    simulation.run()
+    assert steps == list(range(1, simulation.steps + 1))
+
+
+@pytest.mark.parametrize(("end", "interval", "count"), [(0.1 * 3, 0.3, 1), (0.8, 0.1, 8), (0.1, 0.01, 10)])
+def test_each_multiple_is_met_once(end: float, interval: float, count: int):
+    for piece in (math.inf, interval):
+        simulation = cf.Simulation(cf.Scene.shipped("circle").with_values({"time.end": end}))
+        seen: list[float] = []
+        simulation.add_callback(lambda now: seen.append(now.time), interval=interval)
+        while simulation.run(until=simulation.time + piece):
+            pass
+        np.testing.assert_allclose(seen, interval * np.arange(1, count + 1))
+    with pytest.raises(ValueError, match="rounding of the time"):
+        simulation.add_callback(print, interval=1e-310)
 
 
 def test_the_arrays_of_a_state_are_its_own(scene: cf.Scene):

@@ -30,7 +30,7 @@ pub fn run(py: Python<'_>, scene: &Scene, callback: Option<Py<PyAny>>, interval:
         .map_err(|error| PyValueError::new_err(format!("interval = {interval}: {error}")))?;
     let mut watcher = Watcher::new(callback, interval);
     let core = detached(py, || core::run(&scene.core, &mut watcher))?;
-    watcher.raised.map_or(Ok(Record { core }), Err)
+    watcher.other(py).map_or(Ok(Record { core }), Err)
 }
 
 /// Reads a result file.

@@ -61,6 +61,12 @@ impl Scene {
         Ok(Self { core, source_name: self.source_name.clone() })
     }
 
+    /// Whether its points stand in its text.
+    #[getter]
+    fn holds_points(&self) -> bool {
+        self.core.holds_points()
+    }
+
     /// Title.
     #[getter]
     fn title(&self) -> &str {

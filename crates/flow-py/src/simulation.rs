@@ -52,6 +52,12 @@ impl Simulation {
         Ok(self.lock()?.time())
     }
 
+    /// Time at which the run ends at the latest.
+    #[getter]
+    fn end(&self) -> PyResult<f64> {
+        Ok(self.lock()?.end())
+    }
+
     /// Accepted steps so far.
     #[getter]
     fn steps(&self) -> PyResult<u64> {
@@ -84,7 +90,7 @@ impl Simulation {
         simulation.go_on();
         let mut watcher = Watcher::new(callback, interval);
         let more = detached::<_, StorageError>(py, || Ok(simulation.run_until(time, steps, &mut watcher)))?;
-        watcher.raised.or(watcher.interrupt).map_or(Ok(more), Err)
+        watcher.raised.map_or(Ok(more), Err)
     }
 
     /// The state at hand: time, energy, dissipation, length, area; position, curvature, metric, normal velocity and each

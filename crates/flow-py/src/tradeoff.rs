@@ -39,7 +39,7 @@ pub fn tradeoff(
         Err(core::TradeoffError::Interrupted) => Ok(None),
         other => other.map(Some),
     });
-    match (watcher.raised(), measured?) {
+    match (watcher.raised(py), measured?) {
         (Some(raised), _) => Err(raised),
         (None, Some(core)) => Ok(Tradeoff { core }),
         (None, None) => Err(PyKeyboardInterrupt::new_err(core::TradeoffError::Interrupted.to_string())),

@@ -17,16 +17,19 @@ pub struct Watcher {
     interval: Duration,
     checked: Instant,
     called: Option<Instant>,
-    /// What the callback or a signal handler raised, other than to stop the run.
+    /// What stopped the run: Ctrl-C, or what the callback or a signal handler raised, but for `StopIteration`.
     pub raised: Option<PyErr>,
-    /// Ctrl-C, if that stopped it.
-    pub interrupt: Option<PyErr>,
 }
 
 impl Watcher {
     /// Calls `callback` after the first step and then after every step that ends `interval` or more after the last call.
     pub fn new(callback: Option<Py<PyAny>>, interval: Duration) -> Self {
-        Self { callback, interval, checked: Instant::now(), called: None, raised: None, interrupt: None }
+        Self { callback, interval, checked: Instant::now(), called: None, raised: None }
+    }
+
+    /// What was raised other than to stop the run and keep what there is, as Ctrl-C does.
+    pub fn other(self, py: Python<'_>) -> Option<PyErr> {
+        self.raised.and_then(|error| other(py, error))
     }
 
     fn look(&mut self, py: Python<'_>, progress: &Progress, call: bool) -> PyResult<()> {
@@ -48,12 +51,8 @@ impl Observer for Watcher {
             return ControlFlow::Continue(());
         }
         let looked = Python::attach(|py| {
-            self.look(py, progress, call).map_err(|error| {
-                if error.is_instance_of::<PyKeyboardInterrupt>(py) {
-                    self.interrupt = Some(error.clone_ref(py));
-                }
-                other(py, error)
-            })
+            let stops = |error: &PyErr| error.is_instance_of::<PyStopIteration>(py);
+            self.look(py, progress, call).map_err(|error| Some(error).filter(|error| !stops(error)))
         });
         self.checked = Instant::now();
         if call {
@@ -93,8 +92,8 @@ impl LadderWatcher {
     }
 
     /// What Python raised, other than to stop the ladder.
-    pub fn raised(self) -> Option<PyErr> {
-        self.refused.or(self.runs.raised)
+    pub fn raised(self, py: Python<'_>) -> Option<PyErr> {
+        self.refused.or(self.runs.other(py))
     }
 }
 

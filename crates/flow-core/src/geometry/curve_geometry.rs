@@ -24,6 +24,11 @@ pub enum GeometryError {
          drop repeated nodes (the first one is not repeated at the end), and space the others more evenly"
     )]
     Stops { node: usize, metric: f64, mean: f64 },
+    /// Two neighbours are one point.
+    #[error(
+        "nodes {node} and {next} of `position` are the same point; drop one of them (the first one is not repeated at the end)"
+    )]
+    Repeated { node: usize, next: usize },
 }
 
 /// Geometry of a closed curve at its nodes, by trigonometric interpolation of the positions in the parameter s = i/n.
@@ -85,7 +90,7 @@ impl CurveGeometry {
             nodes as f64 * (next_x - x).hypot(next_y - y)
         };
         if let Some(node) = (0..nodes).find(|node| chord(*node) <= STOPS * length) {
-            return Err(GeometryError::Stops { node, metric: chord(node), mean: length });
+            return Err(GeometryError::Repeated { node, next: (node + 1) % nodes });
         }
         let curvature: Vec<f64> =
             (0..nodes).map(|i| (dx[i] * ddy[i] - dy[i] * ddx[i]) / metric[i].powi(3)).collect();
@@ -214,6 +219,6 @@ mod tests {
         // A last node that is the first one, but for rounding.
         let mut closed = ellipse(64, 1.0);
         closed.push([closed[0][0], closed[0][1] - 2e-16]);
-        assert!(matches!(CurveGeometry::of(&closed), Err(GeometryError::Stops { node: 64, .. })));
+        assert!(matches!(CurveGeometry::of(&closed), Err(GeometryError::Repeated { node: 64, next: 0 })));
     }
 }

@@ -13,7 +13,7 @@ const GROWTH: f64 = 1.0;
 const SMOOTH: f64 = 1.25;
 /// … and those in which the samples are, in multiples of that.
 const CLEAN: f64 = 2.5;
-/// Least number of points of the map: the filters leave nothing at half of it.
+/// Least number of points of the map, of which the second filter leaves a few millionths at half of it.
 const LEAST_POINTS: usize = 256;
 
 /// Samples (see [`Grading::samples`]) of the grading on `nodes` nodes whose spacing is inversely proportional to `wave_numbers`,

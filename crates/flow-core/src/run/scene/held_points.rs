@@ -17,6 +17,12 @@ impl Scene {
             Ok(self.clone())
         }
     }
+
+    /// Whether the points of its curve stand in its text.
+    #[must_use]
+    pub fn holds_points(&self) -> bool {
+        matches!(self.curve.shape, Shape::Points { .. }) && !names_a_file(self.text())
+    }
 }
 
 /// The scene of `text` with the points of `curve` in place of a file.

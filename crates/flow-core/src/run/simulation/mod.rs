@@ -274,6 +274,12 @@ impl Simulation {
         self.integration.stepper().time()
     }
 
+    /// Time at which the run ends at the latest.
+    #[must_use]
+    pub fn end(&self) -> f64 {
+        self.end
+    }
+
     /// Work so far.
     #[must_use]
     pub fn counters(&self) -> &Counters {
