@@ -1,5 +1,7 @@
 //! The kernel of a self-interaction: a function of the squared distance, zero beyond a cut-off.
 
+use std::f64::consts::PI;
+
 use multiversion::multiversion;
 
 use super::Order;
@@ -22,6 +24,9 @@ const ROUNDING: f64 = 1e-16;
 const PER_OCTAVE: i32 = 16;
 const OCTAVES_BELOW: i32 = 40;
 const OCTAVES_ABOVE: i32 = 10;
+/// Numbers of nodes tried for the distance that a kernel asks for.
+const FEWEST_NODES: usize = 16;
+const MOST_NODES: usize = 1 << 17;
 
 impl Kernel {
     /// A kernel of the variable 0.
@@ -46,6 +51,35 @@ impl Kernel {
     /// G(0).
     pub(super) fn at_zero(&self) -> f64 {
         self.at_zero
+    }
+
+    /// Largest distance of equidistant nodes on a circle of length `length` on which the sum of G over them, and that of qG′, moves by
+    /// less than the part `error` of the sum of the moduli when the nodes move by half of that: the error of the trapezoidal rule.
+    pub(super) fn largest_spacing(&self, length: f64, error: f64) -> f64 {
+        let mut scratch = vec![0.0; self.gradient.scratch_len()];
+        let mut nodes = FEWEST_NODES;
+        while nodes < MOST_NODES {
+            // At the nodes, and halfway between them.
+            let chord = |i: usize| length / PI * (0.5 * PI * i as f64 / nodes as f64).sin();
+            let squares: Vec<f64> = (0..2 * nodes).map(|i| chord(i).powi(2)).collect();
+            let (mut value, mut first) = (vec![0.0; 2 * nodes], vec![0.0; 2 * nodes]);
+            self.gradient.evaluate(&[&squares], &mut [&mut value, &mut first], &mut scratch);
+            first.iter_mut().zip(&squares).for_each(|(first, square)| *first *= square);
+            let is_exact = |values: &[f64]| {
+                let (mut moved, mut moduli) = (0.0, 0.0);
+                for pair in values.chunks_exact(2) {
+                    moved += pair[0] - pair[1];
+                    moduli += pair[0].abs() + pair[1].abs();
+                }
+                // What is not finite is refused elsewhere.
+                moved.abs() <= error * moduli || !moduli.is_finite()
+            };
+            if is_exact(&value) && is_exact(&first) {
+                break;
+            }
+            nodes += nodes / 4;
+        }
+        length / nodes as f64
     }
 
     /// G, G′ and, for second derivatives, G″ at the squared distances `squares`.
@@ -98,6 +132,23 @@ mod tests {
     fn automatic(text: &str) -> f64 {
         let kernel = Expression::parse(text, &["q"]).unwrap();
         Kernel::new(&kernel, CutOff::Automatic { length: 8.0 }).unwrap().cut_off()
+    }
+
+    #[test]
+    fn narrow_kernels_ask_for_near_nodes() {
+        let spacing = |text: &str, error| {
+            let kernel = Expression::parse(text, &["q"]).unwrap();
+            Kernel::new(&kernel, CutOff::Automatic { length: 8.0 }).unwrap().largest_spacing(8.0, error)
+        };
+        // The sum of exp(−x²/a²) at the distance h is off by 2exp(−π²a²/h²), and by twice that halfway.
+        for (width, text) in [(0.05, "10*exp(-q/0.0025)"), (0.02, "exp(-q/0.0004)")] {
+            let h = spacing(text, 1e-6);
+            assert!(2.0 * (-(PI * width / h).powi(2)).exp() < 1e-6, "{h}");
+            let wider = 1.6 * h;
+            assert!(2.0 * (-(PI * width / wider).powi(2)).exp() > 1e-6, "{h}");
+        }
+        assert!(spacing("exp(-q/0.0025)", 1e-10) < spacing("exp(-q/0.0025)", 1e-3));
+        assert_eq!(spacing("q", 1e-10), 0.5);
     }
 
     #[test]

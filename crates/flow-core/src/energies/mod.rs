@@ -101,6 +101,12 @@ pub trait EnergyTerm: Debug + Send + Sync {
         false
     }
 
+    /// Largest distance of nodes on which the sums of [`EnergyTerm::add_shape_energy`] on a curve of length `length` are off by the
+    /// part `error` at most; infinite if they do not ask for any.
+    fn largest_spacing(&self, _length: f64, _error: f64) -> f64 {
+        f64::INFINITY
+    }
+
     /// Returns the part that depends on where the nodes lie, not on rotations or translations, and adds its
     /// derivatives by positions, by tangents and by the length at fixed positions and tangents. With
     /// [`Order::Hessian`] the term also keeps what [`EnergyTerm::add_shape_hessian_product`] needs.

@@ -10,7 +10,7 @@ use super::limits;
 use super::membrane::Membrane;
 use super::mesh::Mesh;
 use super::mobilities::{density_mobilities, normal_mobility};
-use super::resolution::{self, MOST_NODES, needed_nodes, unresolved};
+use super::resolution::{self, MOST_NODES, needed_nodes, size_above, unresolved};
 use super::scene::{self, Nodes, Scene};
 use super::setup_error::SetupError;
 use crate::flow::{EnergySum, FlowMap, GradientFlow, LinearSolver, MetricRole};
@@ -107,11 +107,16 @@ fn start(scene: &Scene, shape: &Shape, length: f64) -> Result<Start, SetupError>
         return Err(SetupError::TooManyNodes { needed: fronts, most: MOST_NODES, remedy });
     }
     let (mut nodes, family) = (nodes, family(scene, false));
+    let least = length / largest_spacing(scene, length)?;
+    if least > MOST_NODES as f64 {
+        let remedy = "make the kernel of adhesion wider, take a looser tolerance";
+        return Err(SetupError::TooManyNodes { needed: least, most: MOST_NODES, remedy });
+    }
     loop {
         match start_on(scene, shape, nodes) {
             Ok(start) => {
                 let aim = unresolved_bound(scene);
-                let needed = needed_nodes(layout(scene, nodes), &start.state, aim, family);
+                let needed = needed_nodes(layout(scene, nodes), &start.state, aim, family).max(size_above(least));
                 let smooths = unresolved(layout(scene, nodes), &start.state, nodes, family) < SMOOTHED;
                 if needed == nodes || (needed > nodes && nodes >= MOST_FIRST_NODES && smooths) {
                     return Ok(start);
@@ -138,6 +143,16 @@ fn start(scene: &Scene, shape: &Shape, length: f64) -> Result<Start, SetupError>
             Err(error) => return Err(error),
         }
     }
+}
+
+/// Largest distance of nodes that the energies of positions allow on the initial curve.
+fn largest_spacing(scene: &Scene, length: f64) -> Result<f64, SetupError> {
+    if scene.energy.adhesion.is_none() {
+        return Ok(f64::INFINITY); // the others do not ask for any
+    }
+    let terms = energy_terms(scene, Initial { length, area: 0.0 }, FIRST_NODES)?;
+    let error = unresolved_bound(scene);
+    Ok(terms.iter().map(|term| term.largest_spacing(length, error)).fold(f64::INFINITY, f64::min))
 }
 
 fn start_on(scene: &Scene, shape: &Shape, nodes: usize) -> Result<Start, SetupError> {

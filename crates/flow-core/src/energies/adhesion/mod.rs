@@ -108,6 +108,10 @@ impl EnergyTerm for Adhesion {
         true
     }
 
+    fn largest_spacing(&self, length: f64, error: f64) -> f64 {
+        self.kernel.largest_spacing(length, error)
+    }
+
     fn add_shape_energy(&mut self, shape: &ShapeFields, order: Order, out: &mut ShapeFields) -> f64 {
         let (nodes, length) = (self.shares.len() as f64, shape.length);
         self.cells.sort(shape.positions(), self.kernel.cut_off());

@@ -106,6 +106,12 @@ impl EnergySum {
         self.terms.iter().find_map(|term| term.fault(fields))
     }
 
+    /// Largest distance of nodes on which the parts that depend on positions are off by the part `error` at most.
+    #[must_use]
+    pub fn largest_spacing(&self, length: f64, error: f64) -> f64 {
+        self.terms.iter().map(|term| term.largest_spacing(length, error)).fold(f64::INFINITY, f64::min)
+    }
+
     /// Whether something holds the length: a penalty on it, or an energy of positions.
     #[must_use]
     pub fn holds_length(&self, length: f64) -> bool {

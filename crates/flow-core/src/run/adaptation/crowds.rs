@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Adaptation, Plan, Way};
+use super::{Adaptation, Plan, Way, largest};
 use crate::flow::{Regrading, local_wave_numbers};
 use crate::geometry::{Grading, Layout, follow_scales};
 use crate::run::membrane::Membrane;
@@ -27,6 +27,7 @@ impl Adaptation {
         aim: f64,
     ) -> Option<(f64, Plan)> {
         let turning_number = membrane.turning_number();
+        let (length, spacing) = self.spacing(membrane, state);
         let flow = membrane.flow();
         flow.set_current(state);
         let waves = local_wave_numbers(flow);
@@ -41,7 +42,12 @@ impl Adaptation {
             let layout = Layout::new(nodes, densities);
             let mut way = Regrading::new(flow, layout, grading.clone(), turning_number);
             let trial = way.apply(flow, state).ok()?;
-            let part = unresolved(layout, &trial, nodes, self.families[usize::from(spread)]);
+            let sparse = grading.as_ref().map_or(1.0, |grading| largest(grading.weight()));
+            let part = if spacing * (nodes as f64) < sparse * length {
+                f64::INFINITY
+            } else {
+                unresolved(layout, &trial, nodes, self.families[usize::from(spread)])
+            };
             let mesh = Mesh { nodes, samples: spread.then_some(samples) };
             Some((part, Plan { mesh, way: Way::Regraded(grading, Box::new(way)) }))
         };

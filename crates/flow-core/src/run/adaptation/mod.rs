@@ -9,11 +9,11 @@ use std::sync::Arc;
 
 use super::membrane::Membrane;
 use super::mesh::Mesh;
-use super::resolution::{LEAST_NODES, MOST_NODES, least_resolved, needed_nodes};
+use super::resolution::{LEAST_NODES, MOST_NODES, least_resolved, needed_nodes, size_above};
 use super::scene::{Nodes, Scene};
 use super::setup::family;
 use crate::flow::Regrading;
-use crate::geometry::{Grading, Layout, resample};
+use crate::geometry::{Grading, Layout, SpectralLayout, resample};
 use crate::operators::DerivativeFamily;
 pub(super) use bound::unresolved_bound;
 pub use error::ResolutionError;
@@ -124,14 +124,17 @@ impl Adaptation {
         if resolved && !looks {
             return Look::Serve;
         }
+        let (length, spacing) = self.spacing(membrane, state);
+        let least = length / spacing * membrane.flow().grading().map_or(1.0, |grading| largest(grading.weight()));
+        let resolved = resolved && mesh.nodes as f64 >= least;
         let margin = match (resolved, self.grades) {
             (false, _) => MARGIN_OF_MORE,
             (true, false) => MARGIN_OF_FEWER,
             (true, true) => MARGIN_OF_FEWER_IN_CROWDS,
         };
         let aim = if slides { BETTER_THERE * part } else { self.bound * margin };
-        let needed = |state| needed_nodes(layout, state, aim, family).clamp(LEAST_NODES, MOST_NODES);
-        let same = if self.counts { needed(state) } else { mesh.nodes };
+        let needed = needed_nodes(layout, state, aim, family).max(size_above(least));
+        let same = if self.counts { needed.clamp(LEAST_NODES, MOST_NODES) } else { mesh.nodes };
         let crowds = if self.grades { self.crowds(membrane, state, mesh.nodes, aim) } else { None };
         let worthwhile = |nodes: usize, than: usize| (nodes as f64) < WORTHWHILE * than as f64;
         if let Some((unresolved, plan)) = crowds {
@@ -155,6 +158,12 @@ impl Adaptation {
         }
     }
 
+    /// The length, and the largest distance of nodes that the energies of positions allow.
+    fn spacing(&self, membrane: &mut Membrane, state: &[f64]) -> (f64, f64) {
+        let length = state[SpectralLayout::new(membrane.layout()).length_index()];
+        (length, membrane.flow().energy_terms().largest_spacing(length, self.bound))
+    }
+
     /// Says that the nodes of `layout` leave `part` of `field` unresolved at `time`.
     #[cold]
     fn hopeless(&self, time: f64, layout: Layout, (field, part): (usize, f64)) -> ResolutionError {
@@ -165,6 +174,11 @@ impl Adaptation {
             _ => ResolutionError::Metric { time, nodes, part },
         }
     }
+}
+
+/// The largest of positive values.
+fn largest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(0.0, f64::max)
 }
 
 /// The mesh with other nodes at the same parameters.
