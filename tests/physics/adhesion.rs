@@ -1,7 +1,7 @@
 //! The adhesion scene: converged values, the energy at every step, the area held.
 
-use curveflow_tests::assert_close;
 use curveflow_tests::physics::adhesion::measure;
+use curveflow_tests::{assert_close, run, scene};
 
 /// Values of 512 nodes at the tolerance 1e-9, certain to 2e-7 (see `docs/physics.md`).
 const LENGTH_RATIO: f64 = 1.3312419;
@@ -28,4 +28,30 @@ fn lobes_that_attract_each_other_keep_an_area_that_is_held() {
     assert!(run.area_change <= 1e-10, "{:.1e}", run.area_change);
     assert!(run.rise <= 1e-14, "{:.1e}", run.rise);
     assert_close(run.length_ratio, 1.4605355, 1e-4);
+}
+
+/// The spectrum of a circle says nothing of a kernel that is narrower than the distance of its nodes.
+#[test]
+fn automatic_nodes_resolve_narrow_kernels() {
+    let ends = |kernel: &str, nodes: &str, gauge: &str| {
+        let record = run(&scene(&format!(
+            "
+            curve = {{ shape = 'ellipse', semi_axes = [1.2, 1.0] }}
+            energy = {{ bending.rigidity = 1.0, length = {{ penalty = 20.0, target_ratio = 1.0 }}, adhesion.kernel = '{kernel}' }}
+            flow.gauge = '{gauge}'
+            time.end = 0.05
+            accuracy = {{ tolerance = 1e-6, nodes = {nodes} }}
+            "
+        )));
+        let frame = record.frames.last().expect("a frame");
+        (frame.energy, frame.length)
+    };
+    for kernel in ["10*exp(-q/0.0025)", "100*(1-q/0.0004)*exp(-q/0.0004)"] {
+        let (energy, length) = ends(kernel, "1024", "scaled-arc-length");
+        for gauge in ["scaled-arc-length", "graded"] {
+            let (found, found_length) = ends(kernel, "'auto'", gauge);
+            assert_close(found, energy, 1e-5);
+            assert_close(found_length, length, 1e-5);
+        }
+    }
 }

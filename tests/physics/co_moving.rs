@@ -1,7 +1,7 @@
 //! The co-moving gauge: nodes are material points, and the curve is that of the other gauges.
 
 use curveflow_tests::physics::fields::Interpolant;
-use curveflow_tests::{largest_rise, last, run, shipped};
+use curveflow_tests::{largest_rise, last, run, scene, shipped};
 use flow_core::run::{Frame, Record, StopReason};
 
 /// Largest distance of the nodes of `frame` from the curve `uniform`, which has uniform nodes, relative to the length.
@@ -219,4 +219,22 @@ fn a_run_that_switches_on_the_way_comes_to_the_same_rest() {
         assert!((a.energy / b.energy - 1.0).abs() < 1e-5, "{scene}: {} {}", a.energy, b.energy);
         assert!((a.length / b.length - 1.0).abs() < 1e-5, "{scene}: {} {}", a.length, b.length);
     }
+}
+
+/// What slopes of an expression cost is in the preconditioner of moving nodes too.
+#[test]
+fn expressions_of_slopes_take_few_iterations_where_nodes_move() {
+    let record = run(&scene(
+        "
+        curve = { shape = 'trillium' }
+        density = [{ name = 'a', initial = '0.7 + 0.2*sin(2*pi*s)', mobility = 'diffusion' }]
+        energy = { bending.rigidity = 1.0, length = { penalty = 20.0, target_ratio = 1.0 }, local.expression = '0.3*a_sigma^2' }
+        flow.gauge = 'co-moving'
+        time = { end = 0.05, max_steps = 400, stop_at_equilibrium = false }
+        accuracy.tolerance = 1e-3
+        ",
+    ));
+    println!("{:?}", record.counters);
+    assert_eq!(record.stop_reason, StopReason::EndTime);
+    assert!(record.counters.krylov_iterations < 10 * record.counters.newton_iterations);
 }

@@ -160,3 +160,52 @@ fn surface_diffusion_takes_few_iterations_in_every_gauge() {
         }
     }
 }
+
+/// A constant in the energy: what the mobility keeps moves nothing, however large its derivative is.
+#[test]
+fn energies_of_what_is_kept_cost_no_steps() {
+    let steps = |energy: &str, mobility: &str, gauge: &str| {
+        let record = run(&scene(&format!(
+            "
+            curve = {{ shape = 'ellipse', semi_axes = [1.5, 0.8] }}
+            density = [{{ name = 'a', initial = '0.5 + 0.1*cos(2*pi*s)', mobility = 'diffusion' }}]
+            energy.bending.rigidity = 1.0
+            energy.local.expression = '0.1*a_sigma^2'
+            {energy}
+            flow = {{ normal_mobility = '{mobility}', gauge = '{gauge}' }}
+            time = {{ end = 0.1, max_steps = 1000, stop_at_equilibrium = false }}
+            accuracy.tolerance = 1e-4
+            "
+        )));
+        assert_eq!(record.stop_reason, StopReason::EndTime, "{energy} {mobility} {gauge}");
+        record.counters.steps
+    };
+    let cases = [
+        (
+            "incompressible",
+            ["energy.length = { penalty = 1000.0, target_ratio = 1.2 }", "energy.length.tension = -300.0"],
+        ),
+        (
+            "area-preserving",
+            ["energy.area = { penalty = 20.0, target = 1.0 }", "energy.area.pressure = -55.0"],
+        ),
+        (
+            "surface-diffusion",
+            ["energy.area = { penalty = 20.0, target = 1.0 }", "energy.area.pressure = -55.0"],
+        ),
+        (
+            "incompressible-area-preserving",
+            ["energy.length = { penalty = 1000.0, target_ratio = 1.2 }", "energy.area.pressure = -55.0"],
+        ),
+    ];
+    for (mobility, energies) in cases {
+        for gauge in ["scaled-arc-length", "graded", "co-moving"] {
+            let alone = steps("", mobility, gauge);
+            for energy in energies {
+                let with = steps(energy, mobility, gauge);
+                println!("{mobility} {gauge} {energy}: {with} steps, {alone} without");
+                assert!(with <= 2 * alone + 30, "{mobility} {gauge} {energy}: {with} steps, {alone} without");
+            }
+        }
+    }
+}

@@ -27,3 +27,24 @@ fn an_expression_of_slopes_takes_the_steps_of_the_term() {
     assert!(iterations < 5.0, "{iterations}");
     assert_eq!(local.counters.rejections.solver, 0);
 }
+
+/// At the nodes the Fourier derivative of the sawtooth is zero: where a slope keeps a density smooth, it would not cost anything.
+#[test]
+fn the_sawtooth_has_slopes_in_every_family() {
+    let energy = |nodes: &str| {
+        let record = run(&scene(&format!(
+            "
+            curve = {{ shape = 'ellipse', semi_axes = [1.3, 1.0] }}
+            density = [{{ name = 'a', initial = '0.2 + 0.6*exp(-10*sin(pi*(s-0.3))^2)', mobility = 'diffusion' }}]
+            energy = {{ bending.rigidity = 1.0, local.expression = '0.5*a_sigma^2 + 2.5*(a^2-1)^2' }}
+            time = {{ end = 0.3, max_steps = 1000 }}
+            accuracy = {{ tolerance = 1e-8, nodes = {nodes} }}
+            "
+        )));
+        record.frames.last().expect("a frame").energy
+    };
+    let odd = energy("127");
+    for nodes in ["128", "256", "'auto'"] {
+        assert!((energy(nodes) / odd - 1.0).abs() < 1e-7, "{nodes}: {} and {odd}", energy(nodes));
+    }
+}

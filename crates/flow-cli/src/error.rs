@@ -52,9 +52,9 @@ pub enum CliError {
          {0}`", .output.display()
     )]
     Stopped { time: f64, output: PathBuf },
-    /// The checkpoint is of another scene.
+    /// The checkpoint, or the finished result, is of another scene.
     #[error(
-        "{}: the run that was stopped there is of another scene, or of one that has been changed; go on with it by \
+        "{}: the run that is there is of another scene, or of one that has been changed; if it was stopped, go on with it by \
          `curveflow resume`, or start anew with --replace", .output.display()
     )]
     OtherScene { output: PathBuf },

@@ -177,3 +177,15 @@ fn wait_for(path: &Path) {
     }
     panic!("{} does not appear", path.display());
 }
+
+#[test]
+fn a_finished_run_of_another_scene_is_not_taken_for_this_one() {
+    let folder = Folder::new("other-done");
+    assert_eq!(code(&folder.call(&["run", "circle", "-o", "run.h5", "-q"])), 0);
+    assert_eq!(code(&folder.call(&["run", "circle", "-o", "run.h5", "-q", "--resume"])), 0);
+    for other in [&["three_fold"][..], &["circle", "--set", "time.end=2"]] {
+        let done = folder.call(&[&["run"], other, &["-o", "run.h5", "-q", "--resume"]].concat());
+        assert_eq!(code(&done), 7);
+        assert!(said(&done).contains("of another scene"), "{}", said(&done));
+    }
+}

@@ -27,6 +27,10 @@ fn scenes() -> Vec<Scene> {
         ),
         shipped("length_penalty", &[("flow.switch", SWITCHES)]),
         shipped(
+            "length_penalty",
+            &[("flow.switch", "[{ time = 0, gauge = 'graded' }, { time = 0.005, gauge = 'co-moving' }]")],
+        ),
+        shipped(
             "three_fold",
             &[("accuracy.nodes", "128"), ("time.end", "0.02"), ("flow.gauge", "co-moving")],
         ),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use flow_core::output::atomic_file::check_writable;
 use flow_core::output::checkpoint::{Found, Lock, Pair};
 use flow_core::output::{StorageError, hdf5_file};
-use flow_core::run::StopReason;
+use flow_core::run::{Record, StopReason};
 
 use super::conduct::Conduct;
 use super::info;
@@ -28,7 +28,9 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     let _lock = Lock::of(&args.output)?;
     match pair.newest()? {
         Some(found) => go_on(&args.conduct, found, pair),
-        None if args.output.exists() => already_done(&args.conduct, &args.output),
+        None if args.output.exists() => {
+            already_done(&args.conduct, &hdf5_file::read(&args.output)?, &args.output)
+        }
         None => Err(StorageError::NoCheckpoint { path: args.output.clone() }.into()),
     }
 }
@@ -51,8 +53,7 @@ pub fn go_on(conduct: &Conduct, found: Found, pair: Pair) -> Result<(), CliError
 }
 
 /// There is a result and no checkpoint: the run came to its end, or its checkpoints were removed.
-pub fn already_done(conduct: &Conduct, output: &Path) -> Result<(), CliError> {
-    let record = hdf5_file::read(output)?;
+pub fn already_done(conduct: &Conduct, record: &Record, output: &Path) -> Result<(), CliError> {
     let path = output.to_path_buf();
     match &record.stop_reason {
         StopReason::Interrupted => return Err(StorageError::NoCheckpoint { path }.into()),
@@ -62,7 +63,7 @@ pub fn already_done(conduct: &Conduct, output: &Path) -> Result<(), CliError> {
         _ => {}
     }
     if conduct.json {
-        print::data(&info::json(&record))?;
+        print::data(&info::json(record))?;
     } else if !conduct.quiet {
         print::talk(&format!("nothing to do: {}", record.stop_reason.message()));
         print::data(&output.display().to_string())?;

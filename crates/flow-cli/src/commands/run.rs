@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use flow_core::output::StorageError;
 use flow_core::output::atomic_file::check_writable;
 use flow_core::output::checkpoint::{Found, Lock, Pair};
+use flow_core::output::{StorageError, hdf5_file};
 use flow_core::run::{Scene, Simulation};
 
 use super::conduct::Conduct;
@@ -62,7 +62,13 @@ fn go_on(args: &Args, scene: &Scene, output: &Path, mut pair: Pair) -> Result<()
             Err(CliError::OtherScene { output: output.to_path_buf() })
         }
         Some(found) => resume::go_on(&args.conduct, found, pair),
-        None if output.exists() => resume::already_done(&args.conduct, output),
+        None if output.exists() => {
+            let record = hdf5_file::read(output)?;
+            if record.scene != scene.text() {
+                return Err(CliError::OtherScene { output: output.to_path_buf() });
+            }
+            resume::already_done(&args.conduct, &record, output)
+        }
         None => {
             check_writable(output, false)?;
             args.conduct.run(simulation(args, scene)?, pair, false)

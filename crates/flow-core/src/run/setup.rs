@@ -116,7 +116,8 @@ fn start(scene: &Scene, shape: &Shape, length: f64) -> Result<Start, SetupError>
         match start_on(scene, shape, nodes) {
             Ok(start) => {
                 let aim = unresolved_bound(scene);
-                let needed = needed_nodes(layout(scene, nodes), &start.state, aim, family).max(size_above(least));
+                let needed =
+                    needed_nodes(layout(scene, nodes), &start.state, aim, family).max(size_above(least));
                 let smooths = unresolved(layout(scene, nodes), &start.state, nodes, family) < SMOOTHED;
                 if needed == nodes || (needed > nodes && nodes >= MOST_FIRST_NODES && smooths) {
                     return Ok(start);

@@ -27,6 +27,11 @@ impl Normal {
         Self::SurfaceDiffusion,
     ];
 
+    /// Whether 𝓑1 = 0.
+    pub fn keeps_area(self) -> bool {
+        matches!(self, Self::AreaPreserving | Self::IncompressibleAreaPreserving | Self::SurfaceDiffusion)
+    }
+
     pub fn build(self, grid: &PeriodicGrid, derivative: &Derivative) -> Box<dyn NormalMobility> {
         let nodes = grid.nodes();
         match self {

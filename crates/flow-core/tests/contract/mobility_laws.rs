@@ -102,8 +102,13 @@ proptest! {
                 flow.apply_mobility(&hessian, &mut expected);
                 let expected: Vec<f64> = expected.iter().map(|value| -value).collect();
                 let error = distance(&product, &expected);
+                // Of an energy of the area, what holds the area leaves the rounding of its second derivative, as 𝓚 has it.
+                let size = largest(&hessian);
+                let rounding: Vec<f64> = noise(seed, v.len()).iter().map(|value| f64::EPSILON * size * value).collect();
+                flow.apply_mobility(&rounding, &mut hessian);
+                let rounded = if normal.keeps_area() { 4.0 * largest(&hessian) } else { 0.0 };
                 prop_assert!(
-                    error <= DETOUR * largest(&expected) + f64::MIN_POSITIVE,
+                    error <= DETOUR * largest(&expected) + rounded + f64::MIN_POSITIVE,
                     "{term:?}, {normal:?}, {family:?}, n = {nodes}: error {error:.1e} of {:.1e}", largest(&expected)
                 );
             }

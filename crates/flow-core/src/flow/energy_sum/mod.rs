@@ -6,6 +6,7 @@
 mod alone;
 mod by_term;
 mod density;
+mod positions;
 mod stiffness;
 
 use super::curve_fields::CurveFields;
@@ -104,18 +105,6 @@ impl EnergySum {
     pub fn fault(&self, at: &CurveFields) -> Option<TermFault> {
         let fields = Fields::new(self.layout.nodes(), at.pointwise());
         self.terms.iter().find_map(|term| term.fault(fields))
-    }
-
-    /// Largest distance of nodes on which the parts that depend on positions are off by the part `error` at most.
-    #[must_use]
-    pub fn largest_spacing(&self, length: f64, error: f64) -> f64 {
-        self.terms.iter().map(|term| term.largest_spacing(length, error)).fold(f64::INFINITY, f64::min)
-    }
-
-    /// Whether something holds the length: a penalty on it, or an energy of positions.
-    #[must_use]
-    pub fn holds_length(&self, length: f64) -> bool {
-        self.shape.is_some() || self.of_length(length).second != 0.0
     }
 
     /// Pointwise second derivatives at the state evaluated last with [`EnergySum::linearise`].

@@ -19,7 +19,11 @@ impl EnergySum {
     /// Takes the mean of the slopes' second derivatives at the state evaluated last.
     pub(super) fn freeze_stiffness(&mut self) {
         for (field, implicit) in self.implicit_stiffness.iter_mut().enumerate() {
-            let of_slopes = self.slopes.as_ref().map_or(0.0, |slopes| slopes.mean_stiffness(field));
+            let of_slopes = match &self.moving {
+                // With what the terms cost that need no expression.
+                Some(moving) => moving.mean_stiffness(field) - self.stiffness[field],
+                None => self.slopes.as_ref().map_or(0.0, |slopes| slopes.mean_stiffness(field)),
+            };
             *implicit = self.stiffness[field] + of_slopes.max(0.0);
         }
     }

@@ -39,6 +39,20 @@ impl GradientFlow {
         }
         let (spectra, by_length) = (&self.gradient.spectra, self.gradient.by_length);
         self.map.stretching(&self.frozen, spectra, by_length, &mut self.frozen_stretching);
+        if self.frozen_mobility.keeps().length {
+            // 𝓑 takes κ to zero on every curve: a mean tension moves nothing, and its derivative is not that of the force alone.
+            let mean = self.frozen.mean(&self.frozen_stretching);
+            self.frozen_stretching.iter_mut().for_each(|stretching| *stretching -= mean);
+        }
+    }
+
+    /// Where the area is held, 𝓚 takes its gradient to zero: the second derivative is that of the energy less the force that holds it.
+    pub(super) fn hold_area(&mut self) {
+        if self.frozen_mobility.keeps().area && self.energy.depends_on_positions() {
+            self.map.force(&self.frozen, &self.gradient.spectra, self.gradient.by_length, &mut self.force);
+            let multiplier = self.frozen_mobility.area_multiplier(&self.frozen, &self.force);
+            self.energy.hold_area(multiplier);
+        }
     }
 
     /// Adds (Z − π)δκ to the force, δκ that of the last product of the second derivative.

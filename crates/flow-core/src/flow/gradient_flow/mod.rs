@@ -182,6 +182,7 @@ impl GradientFlow {
         self.energy.linearise(&self.frozen, &mut self.gradient);
         self.frozen_fault = self.frozen_mobility.set(&self.frozen).err();
         self.freeze_tension();
+        self.hold_area();
     }
 
     /// Spectral rate at the state of the linearisation; call right after [`GradientFlow::spectral_linearise`].

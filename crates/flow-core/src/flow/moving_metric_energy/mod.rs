@@ -8,7 +8,7 @@ mod second_derivative;
 use super::curve_fields::CurveFields;
 use super::energy_sum::IntrinsicGradient;
 use crate::energies::{EnergyTerm, Fields, Jet, LengthJet, Order};
-use crate::geometry::vectors::{add_scaled, apply_symbol, dot, multiply, multiply_into, scale};
+use crate::geometry::vectors::{add_scaled, apply_symbol, dot, mean, multiply, multiply_into, scale};
 use crate::geometry::{Complex64, Grading, Layout, PeriodicGrid};
 use crate::operators::Derivative;
 
@@ -130,6 +130,13 @@ impl MovingMetricEnergy {
         self.grid.transform(&self.by_metric, &mut gradient.spectra[fields * modes..(fields + 1) * modes]);
         gradient.by_length = 0.0;
         energy
+    }
+
+    /// Mean over the curve of ∂²E/∂(∇_sφ)² at the state that was linearised last.
+    #[must_use]
+    pub fn mean_stiffness(&self, field: usize) -> f64 {
+        let variable = self.layout.fields() + field;
+        mean(self.flux_jet.second(variable, variable))
     }
 
     /// Energy of one term: its nodal density `jet`, its slopes, its function of the length.

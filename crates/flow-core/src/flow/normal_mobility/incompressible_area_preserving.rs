@@ -55,6 +55,10 @@ impl NormalMobility for IncompressibleAreaPreserving {
         }
     }
 
+    fn area_multiplier(&mut self, at: &CurveFields, force: &[f64]) -> f64 {
+        self.inverse * at.mean_of_product(&self.image, force)
+    }
+
     fn symbol(&self, wave_square: f64) -> f64 {
         self.incompressible.symbol(wave_square)
     }

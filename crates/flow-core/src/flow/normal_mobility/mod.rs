@@ -58,6 +58,11 @@ pub trait NormalMobility: Debug + Send + Sync {
     /// V = 𝓑f at the state `at`, that of [`NormalMobility::set`]. Shapes: one value per node.
     fn apply(&mut self, at: &CurveFields, force: &[f64], velocity: &mut [f64]);
 
+    /// The c with 𝓑(f − c) = 𝓑f that is nearest to `force`, where 𝓑1 = 0: what holds the area; zero else.
+    fn area_multiplier(&mut self, at: &CurveFields, force: &[f64]) -> f64 {
+        if self.keeps().area { at.mean(force) } else { 0.0 }
+    }
+
     /// Symbol of 𝓑 with coefficients frozen at their means, for the symbol k² of −`Δ_s`.
     fn symbol(&self, wave_square: f64) -> f64;
 

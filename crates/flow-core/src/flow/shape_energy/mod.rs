@@ -14,8 +14,8 @@ use sawtooth::Sawtooth;
 
 use super::curve_fields::CurveFields;
 use super::energy_sum::IntrinsicGradient;
-use crate::energies::{EnergyTerm, Order, ShapeFields};
-use crate::geometry::vectors::{mean, mean_of_product, scale, scale_into};
+use crate::energies::{Area, EnergyTerm, Order, ShapeFields};
+use crate::geometry::vectors::{add_scaled, mean, mean_of_product, scale, scale_into};
 use crate::geometry::{Complex64, Embedding, Layout, PeriodicGrid, SpectralLayout};
 use crate::operators::Derivative;
 
@@ -36,6 +36,8 @@ pub struct ShapeEnergy {
     spectrum: Vec<Complex64>,
     /// Index of the metric among the fields, if the state holds it.
     metric: Option<usize>,
+    /// The energy of what holds the area, at the linearisation.
+    held: Option<Area>,
 }
 
 /// What the second derivative needs.
@@ -90,6 +92,7 @@ impl ShapeEnergy {
             shape,
             frozen,
             metric: layout.metric(),
+            held: None,
             angle: vec![0.0; nodes],
             values: vec![0.0; nodes],
             spectrum: vec![Complex64::default(); grid.modes()],
@@ -179,6 +182,28 @@ impl ShapeEnergy {
         energy
     }
 
+    /// Adds `multiplier` × area to the energy that is linearised.
+    pub fn hold_area(&mut self, multiplier: f64) {
+        let mut held = Area::Pressure(-multiplier);
+        self.dual.clear();
+        held.add_shape_energy(&self.frozen.shape, Order::Gradient, &mut self.dual);
+        for axis in 0..2 {
+            add_scaled(&mut self.frozen.by_position[axis], 1.0, &self.dual.position[axis]);
+            self.pull_back_to_tangent(axis, self.frozen.shape.length);
+        }
+        let ([c, s], [by_x, by_y]) = (self.frozen.shape.tangents(), self.dual.tangents());
+        for i in 0..c.len() {
+            let along = c[i] * by_x[i] + s[i] * by_y[i];
+            if self.metric.is_some() {
+                self.frozen.by_weight[i] += along / self.frozen.shape.weight[i];
+                self.frozen.mean_by_weight += along / c.len() as f64;
+            }
+            self.frozen.along_tangent[i] += along;
+            self.frozen.across_tangent[i] += c[i] * by_y[i] - s[i] * by_x[i];
+        }
+        self.held = Some(held);
+    }
+
     /// Adds the second derivative times the motion `v` of the spectral state vector.
     pub fn add_hessian_product(
         &mut self,
@@ -191,6 +216,9 @@ impl ShapeEnergy {
         self.dual.clear();
         for term in terms.iter_mut().filter(|term| term.has_shape_energy()) {
             term.add_shape_hessian_product(&self.frozen.shape, &self.motion, &mut self.dual);
+        }
+        if let Some(held) = &mut self.held {
+            held.add_shape_hessian_product(&self.frozen.shape, &self.motion, &mut self.dual);
         }
         out.by_length += self.dual.length;
         for axis in 0..2 {

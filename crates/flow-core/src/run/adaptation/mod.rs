@@ -125,7 +125,8 @@ impl Adaptation {
             return Look::Serve;
         }
         let (length, spacing) = self.spacing(membrane, state);
-        let least = length / spacing * membrane.flow().grading().map_or(1.0, |grading| largest(grading.weight()));
+        let least =
+            length / spacing * membrane.flow().grading().map_or(1.0, |grading| largest(grading.weight()));
         let resolved = resolved && mesh.nodes as f64 >= least;
         let margin = match (resolved, self.grades) {
             (false, _) => MARGIN_OF_MORE,

@@ -182,7 +182,9 @@ impl<'d> Entry<'d> {
             }
             (DeValue::Integer(_) | DeValue::Float(_), "text in quotes") => "put it in quotes",
             (_, "a table") => "write its keys below a line with the name in [brackets]",
-            (_, "a list of tables") => "write the name in double brackets: [[density]]",
+            (_, "a list of tables") => {
+                "write the name in double brackets, as [[density]] and [[flow.switch]]"
+            }
             (_, "true or false") => "write the word without quotes",
             (_, of) if of.starts_with("a list") => {
                 "write the entries in [brackets], with commas between them"

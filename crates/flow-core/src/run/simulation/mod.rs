@@ -149,7 +149,7 @@ impl Simulation {
                     self.stop(StopReason::EndTime);
                 } else {
                     if report.time >= self.gauges.next_time() {
-                        self.switch(&report);
+                        self.switch(report.time, report.energy);
                     } else {
                         self.adapt(report.time, report.energy);
                     }

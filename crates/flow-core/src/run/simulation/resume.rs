@@ -144,7 +144,7 @@ impl Simulation {
         let clock = Instant::now();
         let mut simulation = Self::new(scene)?;
         let turning_number = simulation.membrane.turning_number();
-        simulation.gauges.skip(memory.switches);
+        simulation.gauges.skip(memory.switches.saturating_sub(simulation.switches)); // one may be at the start
         simulation.adaptation = Adaptation::of(simulation.gauges.scene());
         if !memory.mesh.is_possible() {
             return Err(foreign("the number of nodes"));

@@ -92,7 +92,7 @@ impl Simulation {
             stop_reason: StopReason::EndTime,
             provenance: Provenance::here(),
         };
-        Ok(Self {
+        let mut simulation = Self {
             equilibrium: scene
                 .time
                 .stop_at_equilibrium
@@ -118,7 +118,11 @@ impl Simulation {
             clocks: Clocks::started(clock, counters.integration_seconds, watch),
             stopped: None,
             failure: None,
-        })
+        };
+        if simulation.gauges.next_time() <= 0.0 {
+            simulation.switch(0.0, energy);
+        }
+        Ok(simulation)
     }
 }
 

@@ -3,9 +3,7 @@
 use std::time::Instant;
 
 use super::Simulation;
-use crate::integrator::{
-    Adaptive, AdaptiveOptions, Finish, Integrals, Multistep, Problem, StepReport, Stepper,
-};
+use crate::integrator::{Adaptive, AdaptiveOptions, Finish, Integrals, Multistep, Problem, Stepper};
 use crate::run::adaptation::Adaptation;
 use crate::run::failure::Failure;
 use crate::run::gauges::Switched;
@@ -13,29 +11,29 @@ use crate::run::mesh::Mesh;
 
 impl Simulation {
     /// Goes on in the next gauge from the state at hand.
-    pub(super) fn switch(&mut self, report: &StepReport) {
+    pub(super) fn switch(&mut self, time: f64, energy_before: f64) {
         let clock = Instant::now();
         let state = self.integration.stepper().state();
         let Some(switched) = self.gauges.switch(&mut self.membrane, state) else { return };
         let Switched { mut membrane, diagnostics, regraded } = match switched {
             Ok(switched) => switched,
-            Err(error) => return self.fail(Failure::Gauge { time: report.time, error }),
+            Err(error) => return self.fail(Failure::Gauge { time, error }),
         };
         let mut state = regraded.state;
-        let finish = membrane.finish(report.time, &mut state);
+        let finish = membrane.finish(time, &mut state);
         let Finish::Good { energy, integral_rates, .. } = finish else {
-            return self.fail(Failure::NotFiniteInGauge { time: report.time }); // with the last state in the old gauge
+            return self.fail(Failure::NotFiniteInGauge { time }); // with the last state in the old gauge
         };
         (self.membrane, self.diagnostics) = (membrane, diagnostics);
         self.scratch = state;
-        self.start.remap_error += energy - report.energy;
+        self.start.remap_error += energy - energy_before;
         let mut counters = *self.integration.counters();
         counters.remaps += 1;
         self.switches += 1;
         self.mesh = Mesh::of(self.membrane.layout().nodes());
         self.adaptation = Adaptation::of(self.gauges.scene());
         self.remapped_at = counters.steps;
-        let integrals = Integrals::new(report.time, self.integration.integrals(), integral_rates);
+        let integrals = Integrals::new(time, self.integration.integrals(), integral_rates);
         let stepper =
             Multistep::starting(&mut self.membrane, &self.scratch, integrals, self.tolerance, &mut counters);
         let options = AdaptiveOptions { end: self.next_stop(), ..*self.integration.options() };

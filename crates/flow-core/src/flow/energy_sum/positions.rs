@@ -1,0 +1,24 @@
+//! What the energies of positions ask for, and what holds the area against them.
+
+use super::EnergySum;
+
+impl EnergySum {
+    /// Largest distance of nodes on which the parts that depend on positions are off by the part `error` at most.
+    #[must_use]
+    pub fn largest_spacing(&self, length: f64, error: f64) -> f64 {
+        self.terms.iter().map(|term| term.largest_spacing(length, error)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Whether something holds the length: a penalty on it, or an energy of positions.
+    #[must_use]
+    pub fn holds_length(&self, length: f64) -> bool {
+        self.shape.is_some() || self.of_length(length).second != 0.0
+    }
+
+    /// Makes the second derivative at the linearisation that of 𝓕 + `multiplier` × area.
+    pub fn hold_area(&mut self, multiplier: f64) {
+        if let Some(shape) = &mut self.shape {
+            shape.hold_area(multiplier);
+        }
+    }
+}
