@@ -58,3 +58,20 @@ fn a_quiet_command_says_what_went_wrong() {
     assert_eq!(output.status.code(), Some(5));
     assert!(String::from_utf8_lossy(&output.stderr).contains("circle.h5"));
 }
+
+#[test]
+fn a_run_whose_nodes_do_not_resolve_it_says_so() {
+    let folder = Folder::new("coarse");
+    let said = |args: &[&str]| {
+        let output = curveflow(&folder.0, &[&["run", "-o", "run.h5", "--replace"], args].concat());
+        assert!(output.status.success());
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    let coarse = ["three_fold", "--set", "accuracy.nodes=128", "--set", "time.end=0.1"];
+    assert!(said(&coarse).contains("were not resolved by their nodes"), "{}", said(&coarse));
+    assert_eq!(said(&[&coarse[..], &["-q"]].concat()), "");
+    assert!(!said(&["circle.toml"]).contains("warning"));
+    assert!(
+        !said(&["three_fold", "--set", "accuracy.nodes=256", "--set", "time.end=0.1"]).contains("warning")
+    );
+}

@@ -6,14 +6,20 @@ use super::Simulation;
 use crate::integrator::{Adaptive, AdaptiveOptions, Factorisation, Finish, Multistep, Problem, Stepper};
 use crate::run::adaptation::{Look, Plan, Way};
 use crate::run::mesh::Mesh;
+use crate::run::resolution::unresolved;
 
+/// Steps between looks at nodes that are fixed.
+const FIXED_LOOKS: u64 = 8;
+/// Part of a field, and of the tolerance if that is more, that they may leave unresolved without a word.
+const COARSE: f64 = 1e-3;
+const COARSE_PART: f64 = 0.1;
 /// Part of the energy lost so far below which an energy counts as zero.
 const ENERGY_FLOOR: f64 = 1e-3;
 
 impl Simulation {
     /// Takes other nodes if the state at hand asks for them or allows it.
     pub(super) fn adapt(&mut self, time: f64, energy: f64) {
-        let Some(adaptation) = &self.adaptation else { return };
+        let Some(adaptation) = &self.adaptation else { return self.count_unresolved() };
         let clock = Instant::now();
         let age = self.counters().steps - self.remapped_at;
         let state = self.integration.stepper().state();
@@ -32,6 +38,18 @@ impl Simulation {
         self.clocks.remaps += seconds;
         if let Some(error) = failure {
             self.fail(error);
+        }
+    }
+
+    /// On nodes that the scene fixes: counts steps that they are far from resolving.
+    fn count_unresolved(&mut self) {
+        if self.counters().steps.is_multiple_of(FIXED_LOOKS) {
+            let family = self.membrane.flow().grid_and_derivative().1.family();
+            let (layout, state) = (self.membrane.layout(), self.integration.stepper().state());
+            let part = unresolved(layout, state, layout.nodes(), family);
+            if part > COARSE.max(COARSE_PART * self.tolerance) {
+                self.record.counters.unresolved_steps += FIXED_LOOKS;
+            }
         }
     }
 
