@@ -1,7 +1,7 @@
 //! Slopes in `energy.local` cost what the same energy costs in terms of its own.
 
 use curveflow_tests::{run, scene};
-use flow_core::run::Record;
+use flow_core::run::{Record, StopReason};
 
 fn ellipse(energies: &str) -> Record {
     run(&scene(&format!(
@@ -46,5 +46,29 @@ fn the_sawtooth_has_slopes_in_every_family() {
     let odd = energy("127");
     for nodes in ["128", "256", "'auto'"] {
         assert!((energy(nodes) / odd - 1.0).abs() < 1e-7, "{nodes}: {} and {odd}", energy(nodes));
+    }
+}
+
+/// A mixed cost of slopes is in the preconditioners: without it the solves fail where a density is only carried.
+#[test]
+fn mixed_slopes_take_few_iterations() {
+    for gauge in ["scaled-arc-length", "co-moving"] {
+        let record = run(&scene(&format!(
+            "
+            curve = {{ shape = 'polar', r = '1 + 0.25*cos(3*phi) + 0.05*sin(5*phi)' }}
+            density = [{{ name = 'a', initial = '0.5 + 0.2*sin(2*pi*s)', mobility = 'none' }}]
+            energy.bending.rigidity = 1.0
+            energy.regularization.delta = 0.3
+            energy.length = {{ penalty = 20.0, target_ratio = 1.0 }}
+            energy.local.expression = '0.05*a_sigma^2 + 0.1*kappa_sigma*a_sigma'
+            flow.gauge = '{gauge}'
+            time = {{ end = 1.0, max_steps = 500, stop_at_equilibrium = false }}
+            accuracy.tolerance = 1e-5
+            "
+        )));
+        println!("{gauge}: {:?}", record.counters);
+        assert_eq!(record.stop_reason, StopReason::EndTime);
+        assert!(record.counters.krylov_iterations < 12 * record.counters.newton_iterations);
+        assert_eq!(record.counters.rejections.solver, 0);
     }
 }

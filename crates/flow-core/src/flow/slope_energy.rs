@@ -55,11 +55,11 @@ impl SlopeEnergy {
         at.length() * self.mean_density()
     }
 
-    /// Mean over the flux points of ∂²e′/∂(∇_sφ)² at the linearisation.
+    /// Mean over the flux points of ∂²e′/∂(∇_sφ)∂(∇_sψ) at the linearisation.
     #[must_use]
-    pub fn mean_stiffness(&self, field: usize) -> f64 {
-        let slope = self.layout.fields() + field;
-        mean(self.jet.second(slope, slope))
+    pub fn mean_cost(&self, a: usize, b: usize) -> f64 {
+        let fields = self.layout.fields();
+        mean(self.jet.second(fields + a, fields + b))
     }
 
     /// ⟨we′⟩.

@@ -32,18 +32,16 @@ pub fn least_resolved(layout: Layout, state: &[f64], nodes: usize, family: Deriv
     let first_empty = 0.5 * (1.0 - EMPTY) * nodes as f64;
     // Only differences miss something of the modes below.
     let first = if family == DerivativeFamily::Fourier { first_empty.ceil() as usize } else { 0 };
-    let mut missed = vec![0.0; layout.state_fields()];
-    for mode in first..spectral.modes() {
-        let angle = TAU * mode as f64 / nodes as f64;
-        let error = if mode as f64 >= first_empty { 1.0 } else { family.symbol_error(angle) };
-        for (field, missed) in missed.iter_mut().enumerate() {
-            let [re, im] = [0, 1].map(|part| state[spectral.field(field).start + 2 * mode + part]);
-            *missed += error * error * (re * re + im * im);
-        }
-    }
     let mut worst = (0, 0.0);
-    for (field, missed) in missed.into_iter().enumerate() {
+    for field in 0..layout.state_fields() {
         let spectrum = &state[spectral.field(field)];
+        let missed: f64 = (first..spectral.modes())
+            .map(|mode| {
+                let angle = TAU * mode as f64 / nodes as f64;
+                let error = if mode as f64 >= first_empty { 1.0 } else { family.symbol_error(angle) };
+                error * error * (spectrum[2 * mode].powi(2) + spectrum[2 * mode + 1].powi(2))
+            })
+            .sum();
         // A turn of the tangent per length, a thousandth of full coverage, as in the norm of the errors.
         let floor = if field == 0 { 1.0 } else { (1e-3 * length).powi(2) };
         let part = (missed / dot(spectrum, spectrum).max(floor)).sqrt();

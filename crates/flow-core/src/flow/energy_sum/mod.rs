@@ -43,6 +43,8 @@ pub struct EnergySum {
     moving: Option<MovingMetricEnergy>,
     stiffness: Vec<f64>,
     implicit_stiffness: Vec<f64>,
+    /// Means of the mixed second derivatives by slopes, one row per field.
+    cross_stiffness: Vec<f64>,
     jet: Jet,
     slopes: Option<SlopeEnergy>,
     shape: Option<ShapeEnergy>,
@@ -83,6 +85,7 @@ impl EnergySum {
             graded: GradedEnergy::of(layout, grid, derivative),
             moving: MovingMetricEnergy::of(layout, grid, derivative),
             implicit_stiffness: vec![0.0; fields],
+            cross_stiffness: vec![0.0; fields * fields],
             stiffness,
             jet: Jet::new(nodes, fields),
             slopes,

@@ -2,6 +2,9 @@
 
 use super::EnergySum;
 
+/// Largest mixed cost, in geometric means of the two costs: less than one, or the costs would not be positive.
+const LARGEST_CROSS: f64 = 0.99;
+
 impl EnergySum {
     /// Coefficients of ½∫|∇_sφ|² dσ, by field.
     #[must_use]
@@ -16,15 +19,35 @@ impl EnergySum {
         &self.implicit_stiffness
     }
 
-    /// Takes the mean of the slopes' second derivatives at the state evaluated last.
+    /// The mean of ∂²e′/∂(∇_sφ)∂(∇_sψ) for the fields `a` and `b`, which may be the same one, as far as the costs stay positive.
+    #[must_use]
+    pub fn implicit_cost(&self, a: usize, b: usize) -> f64 {
+        if a == b { self.implicit_stiffness[a] } else { self.cross_stiffness[a * self.layout.fields() + b] }
+    }
+
+    /// Takes the means of the slopes' second derivatives at the state evaluated last.
     pub(super) fn freeze_stiffness(&mut self) {
-        for (field, implicit) in self.implicit_stiffness.iter_mut().enumerate() {
-            let of_slopes = match &self.moving {
-                // With what the terms cost that need no expression.
-                Some(moving) => moving.mean_stiffness(field) - self.stiffness[field],
-                None => self.slopes.as_ref().map_or(0.0, |slopes| slopes.mean_stiffness(field)),
-            };
-            *implicit = self.stiffness[field] + of_slopes.max(0.0);
+        let fields = self.layout.fields();
+        for a in 0..fields {
+            let own = self.mean_cost(a, a) - if self.moving.is_some() { self.stiffness[a] } else { 0.0 };
+            self.implicit_stiffness[a] = self.stiffness[a] + own.max(0.0);
+        }
+        for a in 0..fields {
+            for b in 0..a {
+                let most = LARGEST_CROSS * (self.implicit_stiffness[a] * self.implicit_stiffness[b]).sqrt();
+                let cost = self.mean_cost(a, b).clamp(-most, most);
+                self.cross_stiffness[a * fields + b] = cost;
+                self.cross_stiffness[b * fields + a] = cost;
+            }
+        }
+    }
+
+    /// Mean of the second derivative by the slopes of two fields: of the expressions, and where the metric moves of all terms.
+    fn mean_cost(&self, a: usize, b: usize) -> f64 {
+        match (&self.moving, &self.slopes) {
+            (Some(moving), _) => moving.mean_cost(a, b),
+            (None, Some(slopes)) => slopes.mean_cost(a, b),
+            (None, None) => 0.0,
         }
     }
 }

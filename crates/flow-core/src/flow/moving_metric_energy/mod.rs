@@ -132,11 +132,11 @@ impl MovingMetricEnergy {
         energy
     }
 
-    /// Mean over the curve of ∂²E/∂(∇_sφ)² at the state that was linearised last.
+    /// Mean over the flux points of ∂²E/∂(∇_sφ)∂(∇_sψ) at the state that was linearised last.
     #[must_use]
-    pub fn mean_stiffness(&self, field: usize) -> f64 {
-        let variable = self.layout.fields() + field;
-        mean(self.flux_jet.second(variable, variable))
+    pub fn mean_cost(&self, a: usize, b: usize) -> f64 {
+        let fields = self.layout.fields();
+        mean(self.flux_jet.second(fields + a, fields + b))
     }
 
     /// Energy of one term: its nodal density `jet`, its slopes, its function of the length.

@@ -86,10 +86,10 @@ impl FourierSymbol {
             for a in 0..fields {
                 let mobility = gamma * mobility_symbol(flow, a, *symbol, length);
                 for b in 0..fields {
-                    block[a * fields + b] = mobility * means[a * fields + b];
+                    let cost = flow.energy_terms().implicit_cost(a, b) * symbol / (length * length);
+                    block[a * fields + b] = mobility * (means[a * fields + b] + cost);
                 }
-                let stiffness = flow.energy_terms().implicit_stiffness()[a] * symbol / (length * length);
-                block[a * fields + a] += 1.0 + mobility * stiffness;
+                block[a * fields + a] += 1.0;
             }
             let square = symbol / (length * length);
             block[0] += gamma * tension * square * flow.normal_mobility().symbol(square);

@@ -24,12 +24,18 @@ pub fn set(part: &mut LinearPart, flow: &mut GradientFlow) -> bool {
     let modes = flow.grid_and_derivative().0.modes();
     part.clear(fields, modes);
     let tension = flow.mean_tension();
-    let (mut means, mut stiffness) = ([[0.0; MOST_FIELDS]; MOST_FIELDS], [0.0; MOST_FIELDS]);
+    let mut means = [[0.0; MOST_FIELDS]; MOST_FIELDS];
+    let mut costs = means;
     let jet = flow.energy_terms().jet();
     for (a, row) in means[..fields].iter_mut().enumerate() {
         row[..fields].iter_mut().enumerate().for_each(|(b, value)| *value = mean(jet.second(a, b)));
     }
-    stiffness[..fields].copy_from_slice(flow.energy_terms().implicit_stiffness());
+    for (a, row) in costs[..fields].iter_mut().enumerate() {
+        row[..fields]
+            .iter_mut()
+            .enumerate()
+            .for_each(|(b, cost)| *cost = flow.energy_terms().implicit_cost(a, b));
+    }
     let (mut root, mut scale) = ([0.0; MOST_FIELDS], [1.0; MOST_FIELDS]);
     for mode in 0..modes {
         let symbol = flow.grid_and_derivative().1.minus_laplacian()[mode];
@@ -40,9 +46,8 @@ pub fn set(part: &mut LinearPart, flow: &mut GradientFlow) -> bool {
             scale[field] = if root[field] > 0.0 { root[field] } else { 1.0 };
         }
         let block = |a: usize, b: usize| {
-            let own = if a == b { stiffness[a] * square } else { 0.0 };
             let stretched = if a == 0 && b == 0 && square > 0.0 { tension / square } else { 0.0 };
-            -root[a] * (means[a][b] + own + stretched) * root[b]
+            -root[a] * (means[a][b] + costs[a][b] * square + stretched) * root[b]
         };
         let mut take = |place: usize, rate: f64, vector: &[f64]| {
             part.set_eigenvector(mode, place, rate, vector, &scale[..fields]);

@@ -74,7 +74,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         self.take_nodes(flow, scale);
         self.matrix.clear();
         let Stencils { nodes, gradients, forces, diffused } = &mut self.stencils;
-        set_gradients(nodes, flow.energy_terms().implicit_stiffness(), gradients);
+        set_gradients(nodes, &costs(flow), gradients);
         set_forces(nodes, gradients, forces);
         let factors = (gamma, carries(flow));
         if self.is_surface_diffusion {
@@ -115,6 +115,11 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
     }
 }
 
+/// What slopes of each pair of fields cost, on the mean.
+pub fn costs<const F: usize>(flow: &GradientFlow) -> [[f64; F]; F] {
+    std::array::from_fn(|a| std::array::from_fn(|b| flow.energy_terms().implicit_cost(a, b)))
+}
+
 /// a += b c, lane by lane.
 #[inline(always)]
 fn add_product(a: &mut Lane, b: &Lane, c: &Lane) {
@@ -124,15 +129,17 @@ fn add_product(a: &mut Lane, b: &Lane, c: &Lane) {
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn set_gradients<const F: usize>(nodes: &[Node<F>], stiffness: &[f64], gradients: &mut [Gradient<F>]) {
+fn set_gradients<const F: usize>(nodes: &[Node<F>], costs: &[[f64; F]; F], gradients: &mut [Gradient<F>]) {
     for (gradient, node) in gradients.iter_mut().zip(nodes) {
         for f in 0..F {
             for k in 0..3 {
                 for g in 0..F {
                     gradient[f][k][g] = node.second[f][g].map(|second| MASS[k] * second);
                 }
-                for lane in 0..LANES {
-                    gradient[f][k][f][lane] -= node.difference[k][lane] * stiffness[f];
+                for g in (0..F).filter(|g| costs[f][*g] != 0.0) {
+                    for lane in 0..LANES {
+                        gradient[f][k][g][lane] -= node.difference[k][lane] * costs[f][g];
+                    }
                 }
             }
         }

@@ -24,7 +24,7 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
         [scale * self.local.weight[i], scale * inverse / self.local.differences[i][2]]
     }
 
-    pub(super) fn set_stencils(&mut self, stiffness: &[f64]) {
+    pub(super) fn set_stencils(&mut self, costs: &[[f64; F]; F]) {
         for i in 0..self.window.grid.nodes() {
             self.motion_rows[i] = self.motion(i);
         }
@@ -32,7 +32,7 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
             self.slope_rows[i] = std::array::from_fn(|f| self.slope(i, f));
         }
         for i in 0..self.window.grid.nodes() {
-            (self.gradient_rows[i], self.stretch_rows[i]) = self.gradient(i, stiffness);
+            (self.gradient_rows[i], self.stretch_rows[i]) = self.gradient(i, costs);
         }
     }
 
@@ -73,18 +73,20 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
     }
 
     /// Derivatives of half the second variation by δφ at node `i`, and by λ.
-    fn gradient(&self, i: usize, stiffness: &[f64]) -> ([[Row<F>; 5]; F], [Row<F>; 5]) {
+    fn gradient(&self, i: usize, costs: &[[f64; F]; F]) -> ([[Row<F>; 5]; F], [Row<F>; 5]) {
         let before = neighbours(i, self.window.grid.nodes())[0];
         let (own, kappa) = (self.lengths(i)[0], self.coefficients.field(i, 0));
         let (mut gradient, mut stretch) = ([[[0.0; F]; 5]; F], [[0.0; F]; 5]);
         for f in 0..F {
             let [left, right] = [before, i].map(|j| self.slope_of(j, f) * self.lengths(j)[1]);
-            let curved = stiffness[f] * (self.slope_of(i, f) - self.slope_of(before, f)) / own;
+            let change = |g: usize| costs[f][g] * (self.slope_of(i, g) - self.slope_of(before, g)) / own;
+            let curved: f64 = (0..F).filter(|g| costs[f][*g] != 0.0).map(change).sum();
             gradient[f][2][0] += curved * kappa;
             for h in 0..F {
                 for k in 0..4 {
-                    let [ahead, behind] =
-                        [i, before].map(|j| stiffness[f] / own * self.slope_rows[j][f][k][h]);
+                    let cost = |j: usize, g: usize| costs[f][g] / own * self.slope_rows[j][g][k][h];
+                    let [ahead, behind] = [i, before]
+                        .map(|j| (0..F).filter(|g| costs[f][*g] != 0.0).map(|g| cost(j, g)).sum::<f64>());
                     gradient[f][1 + k][h] -= ahead;
                     gradient[f][k][h] += behind;
                     stretch[1 + k][h] -= 0.5 * right * ahead;
