@@ -4,6 +4,7 @@ import pickle
 import signal
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,14 @@ import curveflow as cf
 @pytest.fixture
 def scene() -> cf.Scene:
     return cf.Scene.shipped("three_fold").with_values({"accuracy.nodes": 128, "time.end": 0.05})
+
+
+def raising(error: type[BaseException], step: int) -> Callable[[cf.Progress | cf.Simulation], None]:
+    def callback(now: cf.Progress | cf.Simulation) -> None:
+        if now.steps == step:
+            raise error
+
+    return callback
 
 
 def test_steps_make_the_run(scene: cf.Scene):
@@ -120,11 +129,7 @@ def test_the_progress_callback_stops_a_run_with_a_schedule(scene: cf.Scene):
     seen: list[int] = []
     simulation.add_callback(lambda now: seen.append(now.steps), steps=1)
 
-    def stop(progress: cf.Progress) -> None:
-        if progress.steps == 3:
-            raise StopIteration
-
-    assert simulation.run(callback=stop)
+    assert simulation.run(callback=raising(StopIteration, 3))
     assert (simulation.steps, seen) == (3, [1, 2, 3])
 
 
@@ -156,11 +161,7 @@ def test_states_and_results_travel_between_processes(scene: cf.Scene):
 def test_a_callback_stops_the_run_and_it_goes_on(scene: cf.Scene):
     simulation = cf.Simulation(scene)
 
-    def stop(now: cf.Simulation) -> None:
-        if now.steps == 20:
-            raise StopIteration
-
-    simulation.add_callback(stop, steps=10)
+    simulation.add_callback(raising(StopIteration, 20), steps=10)
     assert simulation.run()
     assert simulation.steps == 20
     assert not simulation.run()
@@ -201,10 +202,7 @@ def test_no_call_is_lost_and_none_comes_twice(scene: cf.Scene):
     steps: list[int] = []
     simulation.add_callback(lambda now: steps.append(now.steps), steps=1)
 
-    def interrupt(progress: cf.Progress) -> None:
-        if progress.steps == 3:
-            raise KeyboardInterrupt
-
+    interrupt = raising(KeyboardInterrupt, 3)
     with pytest.raises(KeyboardInterrupt):
         simulation.run(callback=interrupt)
     assert simulation.steps == 3

@@ -3,8 +3,8 @@
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use flow_core::integrator::{Finish, Problem};
-use flow_core::run::{Membrane, Setup, SetupError, Simulation};
+use flow_core::integrator::Problem;
+use flow_core::run::{Membrane, Setup, SetupError};
 use numpy::{PyArray1, PyReadonlyArray1, PyReadwriteArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -70,11 +70,9 @@ impl System {
     #[new]
     fn new(py: Python<'_>, scene: &Scene) -> PyResult<Self> {
         let (membrane, state) = detached::<_, SetupError>(py, || {
-            let Setup { mut membrane, mut state, .. } = Setup::new(&scene.core)?;
-            if membrane.finish(0.0, &mut state) == Finish::NotFinite {
-                Simulation::new(&scene.core)?; // a run names the term that is not finite
-            }
-            Ok((membrane, state))
+            let mut setup = Setup::new(&scene.core)?;
+            setup.finish()?;
+            Ok((setup.membrane, setup.state))
         })?;
         let blocks = membrane.blocks().into_iter().map(|block| (block.start, block.end)).collect();
         let (size, initial) = (state.len(), vector(py, state).unbind());

@@ -25,14 +25,15 @@ pub fn follow_scales(fractions: &[f64], wave_numbers: &[f64], nodes: usize) -> V
     let logarithms: Vec<f64> = spacing.iter().map(|h| h.ln()).collect();
     let samples = Grading::samples(nodes);
     let every = LEAST_POINTS.div_ceil(samples);
-    let mut filter = Filter::new(every * samples);
+    let count = every * samples;
+    let mut filter = Filter::new(count);
     // Smoothed along the parameter of the raw map, but as a function of the place x: the crowds stay where they are.
-    let (places, mut logarithms) = place_nodes(fractions, &spacing, &logarithms, every * samples);
+    let (places, mut logarithms) = place_nodes(fractions, &spacing, &logarithms, count);
     let modes = SMOOTH * (nodes as f64).sqrt();
     filter.low_pass(&mut logarithms, modes);
     let mut smooth = logarithms.clone();
     exponentiate(&mut smooth);
-    let (_, mut logarithms) = place_nodes(&places, &smooth, &logarithms, every * samples);
+    let (_, mut logarithms) = place_nodes(&places, &smooth, &logarithms, count);
     filter.low_pass(&mut logarithms, CLEAN * modes);
     let mut samples: Vec<f64> = logarithms.into_iter().step_by(every).collect();
     exponentiate(&mut samples);

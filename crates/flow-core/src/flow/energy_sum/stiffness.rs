@@ -25,12 +25,17 @@ impl EnergySum {
         if a == b { self.implicit_stiffness[a] } else { self.cross_stiffness[a * self.layout.fields() + b] }
     }
 
+    /// [`EnergySum::implicit_cost`] of each pair of the `F` fields.
+    #[must_use]
+    pub fn implicit_costs<const F: usize>(&self) -> [[f64; F]; F] {
+        std::array::from_fn(|a| std::array::from_fn(|b| self.implicit_cost(a, b)))
+    }
+
     /// Takes the means of the slopes' second derivatives at the state evaluated last.
     pub(super) fn freeze_stiffness(&mut self) {
         let fields = self.layout.fields();
         for a in 0..fields {
-            let own = self.mean_cost(a, a) - if self.moving.is_some() { self.stiffness[a] } else { 0.0 };
-            self.implicit_stiffness[a] = self.stiffness[a] + own.max(0.0);
+            self.implicit_stiffness[a] = self.stiffness[a] + self.mean_cost(a, a).max(0.0);
         }
         for a in 0..fields {
             for b in 0..a {
@@ -42,10 +47,11 @@ impl EnergySum {
         }
     }
 
-    /// Mean of the second derivative by the slopes of two fields: of the expressions, and where the metric moves of all terms.
+    /// Mean of ∂²e′/∂(∇_sφ)∂(∇_sψ), without [`EnergySum::stiffness`].
     fn mean_cost(&self, a: usize, b: usize) -> f64 {
         match (&self.moving, &self.slopes) {
-            (Some(moving), _) => moving.mean_cost(a, b),
+            // Its jet is that of all slopes.
+            (Some(moving), _) => moving.mean_cost(a, b) - if a == b { self.stiffness[a] } else { 0.0 },
             (None, Some(slopes)) => slopes.mean_cost(a, b),
             (None, None) => 0.0,
         }

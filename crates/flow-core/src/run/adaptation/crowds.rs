@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Adaptation, Plan, Way, largest};
+use super::{Adaptation, Plan, Way, sparsest};
 use crate::flow::{Regrading, local_wave_numbers};
 use crate::geometry::{Grading, Layout, follow_scales};
 use crate::run::membrane::Membrane;
@@ -18,16 +18,16 @@ const LEAST_SPREAD: f64 = 2.0;
 
 impl Adaptation {
     /// The fewest nodes found, near `nodes` of them, on which only the part `aim` of the spectral `state` of `membrane` is not
-    /// resolved, with that part.
+    /// resolved, with that part; as many `equidistant` ones are needed in any case.
     pub(super) fn crowds(
         &self,
         membrane: &mut Membrane,
         state: &[f64],
         nodes: usize,
         aim: f64,
+        equidistant: f64,
     ) -> Option<(f64, Plan)> {
         let turning_number = membrane.turning_number();
-        let (length, spacing) = self.spacing(membrane, state);
         let flow = membrane.flow();
         flow.set_current(state);
         let waves = local_wave_numbers(flow);
@@ -42,8 +42,7 @@ impl Adaptation {
             let layout = Layout::new(nodes, densities);
             let mut way = Regrading::new(flow, layout, grading.clone(), turning_number);
             let trial = way.apply(flow, state).ok()?;
-            let sparse = grading.as_ref().map_or(1.0, |grading| largest(grading.weight()));
-            let part = if spacing * (nodes as f64) < sparse * length {
+            let part = if (nodes as f64) < equidistant * sparsest(grading.as_ref()) {
                 f64::INFINITY
             } else {
                 unresolved(layout, &trial, nodes, self.families[usize::from(spread)])

@@ -124,9 +124,8 @@ impl Adaptation {
         if resolved && !looks {
             return Look::Serve;
         }
-        let (length, spacing) = self.spacing(membrane, state);
-        let least =
-            length / spacing * membrane.flow().grading().map_or(1.0, |grading| largest(grading.weight()));
+        let equidistant = self.fewest_equidistant(membrane, state);
+        let least = equidistant * sparsest(membrane.flow().grading());
         let resolved = resolved && mesh.nodes as f64 >= least;
         let margin = match (resolved, self.grades) {
             (false, _) => MARGIN_OF_MORE,
@@ -136,7 +135,8 @@ impl Adaptation {
         let aim = if slides { BETTER_THERE * part } else { self.bound * margin };
         let needed = needed_nodes(layout, state, aim, family).max(size_above(least));
         let same = if self.counts { needed.clamp(LEAST_NODES, MOST_NODES) } else { mesh.nodes };
-        let crowds = if self.grades { self.crowds(membrane, state, mesh.nodes, aim) } else { None };
+        let crowds =
+            if self.grades { self.crowds(membrane, state, mesh.nodes, aim, equidistant) } else { None };
         let worthwhile = |nodes: usize, than: usize| (nodes as f64) < WORTHWHILE * than as f64;
         if let Some((unresolved, plan)) = crowds {
             let nodes = plan.mesh.nodes;
@@ -159,10 +159,10 @@ impl Adaptation {
         }
     }
 
-    /// The length, and the largest distance of nodes that the energies of positions allow.
-    fn spacing(&self, membrane: &mut Membrane, state: &[f64]) -> (f64, f64) {
+    /// Equidistant nodes that the energies of positions ask for.
+    fn fewest_equidistant(&self, membrane: &mut Membrane, state: &[f64]) -> f64 {
         let length = state[SpectralLayout::new(membrane.layout()).length_index()];
-        (length, membrane.flow().energy_terms().largest_spacing(length, self.bound))
+        length / membrane.flow().energy_terms().largest_spacing(length, self.bound)
     }
 
     /// Says that the nodes of `layout` leave `part` of `field` unresolved at `time`.
@@ -177,9 +177,9 @@ impl Adaptation {
     }
 }
 
-/// The largest of positive values.
-fn largest(values: &[f64]) -> f64 {
-    values.iter().copied().fold(0.0, f64::max)
+/// The largest distance of nodes, in that of as many equidistant ones.
+fn sparsest(grading: Option<&Arc<Grading>>) -> f64 {
+    grading.map_or(1.0, |grading| grading.weight().iter().copied().fold(0.0, f64::max))
 }
 
 /// The mesh with other nodes at the same parameters.

@@ -25,16 +25,9 @@ pub fn set(part: &mut LinearPart, flow: &mut GradientFlow) -> bool {
     part.clear(fields, modes);
     let tension = flow.mean_tension();
     let mut means = [[0.0; MOST_FIELDS]; MOST_FIELDS];
-    let mut costs = means;
     let jet = flow.energy_terms().jet();
     for (a, row) in means[..fields].iter_mut().enumerate() {
         row[..fields].iter_mut().enumerate().for_each(|(b, value)| *value = mean(jet.second(a, b)));
-    }
-    for (a, row) in costs[..fields].iter_mut().enumerate() {
-        row[..fields]
-            .iter_mut()
-            .enumerate()
-            .for_each(|(b, cost)| *cost = flow.energy_terms().implicit_cost(a, b));
     }
     let (mut root, mut scale) = ([0.0; MOST_FIELDS], [1.0; MOST_FIELDS]);
     for mode in 0..modes {
@@ -47,7 +40,8 @@ pub fn set(part: &mut LinearPart, flow: &mut GradientFlow) -> bool {
         }
         let block = |a: usize, b: usize| {
             let stretched = if a == 0 && b == 0 && square > 0.0 { tension / square } else { 0.0 };
-            -root[a] * (means[a][b] + costs[a][b] * square + stretched) * root[b]
+            let cost = flow.energy_terms().implicit_cost(a, b) * square;
+            -root[a] * (means[a][b] + cost + stretched) * root[b]
         };
         let mut take = |place: usize, rate: f64, vector: &[f64]| {
             part.set_eigenvector(mode, place, rate, vector, &scale[..fields]);

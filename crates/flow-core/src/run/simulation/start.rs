@@ -28,6 +28,8 @@ impl Simulation {
     /// [`SetupError`] if the scene makes no initial state.
     pub fn new(scene: &Scene) -> Result<Self, SetupError> {
         let clock = Instant::now();
+        let mut setup = Setup::new(scene)?;
+        let (energy, dissipation, integral_rates) = setup.finish()?;
         let Setup {
             mut membrane,
             mut state,
@@ -38,11 +40,7 @@ impl Simulation {
             mesh,
             adaptation,
             ..
-        } = Setup::new(scene)?;
-        let finish = membrane.finish(0.0, &mut state);
-        let Finish::Good { energy, dissipation, integral_rates } = finish else {
-            return Err(not_finite(&mut membrane, &state));
-        };
+        } = setup;
         if let Some(fault) = membrane.flow().fault() {
             return Err(fault.into());
         }
@@ -123,6 +121,19 @@ impl Simulation {
             simulation.switch(0.0, energy);
         }
         Ok(simulation)
+    }
+}
+
+impl Setup {
+    /// Puts the initial state onto its constraints; its energy, its dissipation and the rates of the integrals.
+    ///
+    /// # Errors
+    /// [`SetupError::EnergyNotFinite`], which names the term.
+    pub fn finish(&mut self) -> Result<(f64, f64, [f64; INTEGRALS]), SetupError> {
+        match self.membrane.finish(0.0, &mut self.state) {
+            Finish::Good { energy, dissipation, integral_rates } => Ok((energy, dissipation, integral_rates)),
+            Finish::NotFinite => Err(not_finite(&mut self.membrane, &self.state)),
+        }
     }
 }
 

@@ -13,7 +13,6 @@ use std::fmt::Debug;
 
 pub use coefficients::Coefficients;
 use rows::Stencils;
-pub use rows::costs;
 pub use window::Window;
 
 use super::compact_laplacian::{mass_symbol, symbol_of_mass};

@@ -74,7 +74,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         self.take_nodes(flow, scale);
         self.matrix.clear();
         let Stencils { nodes, gradients, forces, diffused } = &mut self.stencils;
-        set_gradients(nodes, &costs(flow), gradients);
+        set_gradients(nodes, &flow.energy_terms().implicit_costs(), gradients);
         set_forces(nodes, gradients, forces);
         let factors = (gamma, carries(flow));
         if self.is_surface_diffusion {
@@ -113,11 +113,6 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
             }
         }
     }
-}
-
-/// What slopes of each pair of fields cost, on the mean.
-pub fn costs<const F: usize>(flow: &GradientFlow) -> [[f64; F]; F] {
-    std::array::from_fn(|a| std::array::from_fn(|b| flow.energy_terms().implicit_cost(a, b)))
 }
 
 /// a += b c, lane by lane.

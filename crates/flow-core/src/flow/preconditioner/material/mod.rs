@@ -6,7 +6,7 @@
 
 mod rows;
 
-use super::banded::{Banded, Coefficients, MOST_NODES, Window, costs, diffuses};
+use super::banded::{Banded, Coefficients, MOST_NODES, Window, diffuses};
 use super::fourier::mobility_symbol;
 use super::local_spacing::LocalSpacing;
 use crate::flow::gradient_flow::GradientFlow;
@@ -107,7 +107,7 @@ impl<const F: usize, const B: usize> Banded for MaterialPart<F, B> {
         }
         self.coefficients.set(flow, &mut self.window.grid);
         self.set_roots(flow, gamma);
-        self.set_stencils(&costs(flow));
+        self.set_stencils(&flow.energy_terms().implicit_costs());
         self.fill(flow, gamma);
         self.matrix.factorise()
     }
