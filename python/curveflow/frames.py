@@ -46,7 +46,10 @@ class Frames:
 
     @cached_property
     def dissipation(self) -> Array:
-        """Dissipation, minus the rate of change of the energy, shape (frame,), in energy / time (F6)."""
+        """Dissipation, minus the rate of change of the energy, shape (frame,), in energy / time (F6).
+
+        Like :attr:`normal_velocity` it is that of the state as it is, and not bounded by the tolerance.
+        """
         return self._record.values("dissipation")
 
     @cached_property
@@ -113,7 +116,11 @@ class Frames:
 
     @cached_property
     def normal_velocity(self) -> Array:
-        """Velocity V along the outward normal, shape (frame, node), in length / time (F4)."""
+        """Velocity V along the outward normal, shape (frame, node), in length / time (F4).
+
+        The tolerance bounds the state, not V, whose derivatives multiply what is left in the shortest waves: where V
+        matters late in a run, ask for a tolerance a hundred to a thousand times tighter.
+        """
         return self._record.field("normal_velocity")
 
     @cached_property

@@ -13,7 +13,7 @@ import curveflow as cf
 def stiff() -> cf.Result:
     """A run with a requested field and diagnostics."""
     scene = cf.Scene.shipped("membrane_penalty").with_values(
-        {"output.frames": 4, "output.fields": ["normal-force"], "accuracy.tolerance": 1e-4, "accuracy.nodes": 256}
+        {"output.frames": 4, "output.fields": ["normal-force", "membrane-flux"], "accuracy.tolerance": 1e-4, "accuracy.nodes": 256}
     )
     return cf.run(scene)
 
@@ -59,6 +59,9 @@ def test_it_has_named_dimensions_coordinates_units_and_provenance(stiff: cf.Resu
     np.testing.assert_array_equal(data.steps_rejections_error, stiff.steps["rejections_error"])
     np.testing.assert_array_equal(data.position.sel(component="y"), stiff.position[:, :, 1])
     assert data.curvature.attrs == {"long_name": "curvature, positive on a circle", "units": "length_unit-1"}
+    assert data.fields_normal_force.attrs == {"long_name": "normal force", "units": "energy_unit length_unit-2"}
+    assert data.fields_membrane_flux.units == "density_unit epsilon_unit-1 length_unit-1"
+    assert data.diagnostics_velocity_residual.units == "length_unit1.5 time_unit-1"
     assert data.attrs["scene"] == stiff.scene.text
     assert data.attrs["curveflow_version"] == cf.__version__ == stiff.provenance.version
     assert data.attrs["machine"] == stiff.provenance.machine

@@ -152,4 +152,10 @@ fn what_fails_is_named() {
     );
     let error = tradeoff(&short, &Ladder::new(&[1e-3], Some(32)).unwrap(), &mut Quiet);
     assert!(matches!(error, Err(TradeoffError::FewerNodes { nodes: 32, least: 64 })), "{error:?}");
+    let automatic = shipped("length_penalty", &[("accuracy.tolerance", "1e-3")]);
+    let error = tradeoff(&automatic, &Ladder::new(&[1e-2], Some(128)).unwrap(), &mut Quiet);
+    assert!(
+        matches!(error, Err(TradeoffError::FewerNodes { nodes: 128, least }) if least > 128),
+        "{error:?}"
+    );
 }

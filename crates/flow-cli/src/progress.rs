@@ -53,14 +53,14 @@ impl Observer for Reporter {
         if self.interval.is_some_and(|interval| self.shown.elapsed() >= interval) {
             self.shown = Instant::now();
             let message = format!(
-                "t = {:.4e} of {:.4e}, step {} of size {:.2e}, energy {:.6}, dissipation {:.2e}, length {:.6}",
+                "t = {:.4e} of {:.4e}, step {} of size {:.2e}, energy {}, dissipation {:.2e}, length {}",
                 progress.time,
                 progress.end,
                 progress.steps,
                 progress.step_size,
-                progress.energy,
+                print::digits(progress.energy),
                 progress.dissipation,
-                progress.length
+                print::digits(progress.length)
             );
             match &self.line {
                 Some(line) => {

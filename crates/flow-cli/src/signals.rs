@@ -5,13 +5,15 @@ use std::sync::atomic::AtomicBool;
 
 use crate::error::CliError;
 
-/// Raised by SIGINT and SIGTERM; a second signal ends the process at once.
+/// Raised by SIGINT and SIGTERM. A second SIGINT, from a hand that will not wait, ends the process at once; not a second SIGTERM,
+/// since `timeout` and batch systems send two in a row, and what was computed would be lost.
 pub fn stop_flag() -> Result<Arc<AtomicBool>, CliError> {
-    let stop = Arc::new(AtomicBool::new(false));
-    for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
-        signal_hook::flag::register_conditional_shutdown(signal, 6, Arc::clone(&stop))
-            .and_then(|_| signal_hook::flag::register(signal, Arc::clone(&stop)))
-            .map_err(CliError::Signals)?;
-    }
+    use signal_hook::consts::{SIGINT, SIGTERM};
+    let (stop, interrupted) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicBool::new(false)));
+    signal_hook::flag::register_conditional_shutdown(SIGINT, 6, Arc::clone(&interrupted))
+        .and_then(|_| signal_hook::flag::register(SIGINT, interrupted))
+        .and_then(|_| signal_hook::flag::register(SIGINT, Arc::clone(&stop)))
+        .and_then(|_| signal_hook::flag::register(SIGTERM, Arc::clone(&stop)))
+        .map_err(CliError::Signals)?;
     Ok(stop)
 }

@@ -168,6 +168,35 @@ fn of_two_runs_to_one_file_the_second_is_refused() {
     assert_eq!(code(&third), 6, "{}", said(&third));
 }
 
+/// As `timeout` and batch systems stop what they have started.
+#[cfg(unix)]
+#[test]
+fn two_sigterms_in_a_row_keep_what_was_computed() {
+    let folder = Folder::new("terms");
+    let long =
+        ["run", "scene.toml", "-o", "out.h5", "-q", "--checkpoint", "0", "--set", "accuracy.tolerance=1e-10"];
+    let mut child = folder.command(&[&long[..], &["--set", "accuracy.nodes=8192"]].concat()).spawn().unwrap();
+    wait_for(&folder.0.join("out.h5.checkpoint-a"));
+    for _ in 0..2 {
+        assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
+        sleep(Duration::from_millis(1));
+    }
+    assert_eq!(child.wait().unwrap().code(), Some(6));
+    assert!(folder.record("out.h5").counters.steps > 0);
+    assert!(!folder.names().contains(&"out.h5.lock".to_owned()));
+}
+
+/// A lock cannot be made in a folder that may only be read; here something else has its name.
+#[test]
+fn a_run_that_is_done_needs_no_lock() {
+    let folder = Folder::new("lockless");
+    assert_eq!(code(&folder.call(&["run", "circle", "-o", "run.h5", "-q"])), 0);
+    fs::create_dir(folder.0.join("run.h5.lock")).unwrap();
+    let done = folder.call(&["resume", "run.h5"]);
+    assert_eq!(code(&done), 0, "{}", said(&done));
+    assert!(said(&done).contains("nothing to do"), "{}", said(&done));
+}
+
 fn wait_for(path: &Path) {
     for _ in 0..1000 {
         if path.exists() {

@@ -98,7 +98,7 @@ fn a_bad_list_of_tolerances_says_why() {
     for (arguments, words) in [
         (
             &["--set", "accuracy.nodes=64", "--reference-nodes", "32"][..],
-            "the reference has 32 nodes, but the tightest run 64",
+            "the reference has 32 nodes, but a run that it measures 64",
         ),
         (&["--error=-1"], "must be positive"),
         (&["-o", "figure.pdf"], "ends in .png or .svg"),

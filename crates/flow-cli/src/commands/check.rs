@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use flow_core::run::scene::Nodes;
-use flow_core::run::{Prediction, predict};
+use flow_core::run::{Prediction, StopReason, Trial, predict};
 
 use super::scene_args::SceneArgs;
 use crate::error::CliError;
@@ -23,34 +23,70 @@ pub struct Args {
 pub fn execute(args: &Args) -> Result<(), CliError> {
     let scene = args.scene.read()?;
     let clock = Instant::now();
-    let Prediction { nodes, most_nodes, unknowns, memory_bytes, file_bytes, seconds_per_step, steps } =
-        predict(&scene).map_err(|error| args.scene.unusable(error))?;
+    let prediction = predict(&scene).map_err(|error| args.scene.unusable(error))?;
     if args.json {
-        let value = serde_json::json!({
-            "nodes": nodes,
-            "most_nodes": most_nodes,
-            "unknowns": unknowns,
-            "memory_bytes": memory_bytes,
-            "file_bytes": file_bytes,
-            "seconds_per_step": seconds_per_step,
-            "steps": steps,
-            "seconds": seconds_per_step * steps,
-        });
-        return print::data(&format!("{value:#}"));
+        return print::data(&format!("{:#}", json(&prediction)));
     }
-    let mega = |bytes: f64| bytes / 1e6;
-    print::data(&format!(
-        "the scene is valid\nnodes     {}\nunknowns  {unknowns}\nmemory    {:.1} MB\nfile      at most {:.1} MB\nsteps     \
-         about {steps:.0} (rough; fewer if the flow comes to rest)\ntime      about {:.2} s",
-        if scene.accuracy.nodes == Nodes::Auto {
-            format!("{nodes} at the start, as many as it needs on the way (about {most_nodes} at most)")
-        } else {
-            nodes.to_string()
-        },
-        mega(memory_bytes),
-        mega(file_bytes),
-        seconds_per_step * steps
-    ))?;
-    print::talk(&format!("(trial steps took {:.2} s)", clock.elapsed().as_secs_f64()));
+    print::data(&table(&prediction, scene.accuracy.nodes == Nodes::Auto))?;
+    let Trial { tolerance, .. } = prediction.trial;
+    print::talk(&format!(
+        "(a trial run at tolerance {tolerance:e} took {} s)",
+        brief(clock.elapsed().as_secs_f64())
+    ));
     Ok(())
+}
+
+fn json(prediction: &Prediction) -> serde_json::Value {
+    let Prediction { steps, integration_seconds, output_seconds, ref trial, .. } = *prediction;
+    serde_json::json!({
+        "nodes": prediction.nodes,
+        "most_nodes": prediction.most_nodes,
+        "unknowns": prediction.unknowns,
+        "memory_bytes": prediction.memory_bytes,
+        "file_bytes": prediction.file_bytes,
+        "seconds_per_step": integration_seconds / steps.max(1.0),
+        "steps": steps,
+        "integration_seconds": integration_seconds,
+        "output_seconds": output_seconds,
+        "seconds": integration_seconds + output_seconds,
+        "trial": {
+            "tolerance": trial.tolerance,
+            "time": trial.time,
+            "stop_reason": trial.stop_reason.as_ref().map(StopReason::name),
+            "message": trial.stop_reason.as_ref().map(StopReason::message),
+        },
+    })
+}
+
+fn table(prediction: &Prediction, automatic: bool) -> String {
+    let Prediction { nodes, most_nodes, unknowns, memory_bytes, file_bytes, steps, .. } = *prediction;
+    let Prediction { integration_seconds, output_seconds, ref trial, .. } = *prediction;
+    let nodes = if automatic {
+        format!("{nodes} at the start, as many as it needs on the way (about {most_nodes} at most)")
+    } else {
+        nodes.to_string()
+    };
+    let time = brief(trial.time);
+    let until = match &trial.stop_reason {
+        Some(StopReason::EndTime) => "to the end time".to_owned(),
+        Some(StopReason::Equilibrium) => format!("to equilibrium, near t = {time}"),
+        Some(StopReason::Contact) => format!("to a contact, near t = {time}"),
+        Some(StopReason::Failed(message)) => format!("to a failure near t = {time}: {message}"),
+        _ => "to the end time; fewer if the flow comes to rest before".to_owned(),
+    };
+    format!(
+        "the scene is valid\nnodes     {nodes}\nunknowns  {unknowns}\nmemory    about {} MB\nfile      at most {} MB\nsteps     \
+         about {}, {until}\ntime      about {} s, {} s of it for the steps, {} s for frames and file",
+        brief(memory_bytes / 1e6),
+        brief(file_bytes / 1e6),
+        brief(steps),
+        brief(integration_seconds + output_seconds),
+        brief(integration_seconds),
+        brief(output_seconds),
+    )
+}
+
+/// Two digits that count, as many as a prediction deserves.
+fn brief(value: f64) -> String {
+    print::significant(value, 2)
 }

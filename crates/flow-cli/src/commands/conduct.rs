@@ -9,7 +9,7 @@ use flow_core::run::{Record, Simulation, StopReason};
 
 use super::info;
 use crate::error::CliError;
-use crate::print;
+use crate::print::{self, counted, digits};
 use crate::progress::Reporter;
 use crate::signals::stop_flag;
 
@@ -98,15 +98,14 @@ fn closing_line(record: &Record, seconds: f64) -> String {
         StopReason::Failed(_) => "failed",
     };
     format!(
-        "{ending}: t = {:.6e}, energy {:.6} → {:.6}, length {:.6} → {:.6}; {} nodes, {} steps, {:.3} s ({:.3} s \
-         integration)",
+        "{ending}: t = {:.6e}, energy {} → {}, length {} → {}; {} nodes, {}, {:.3} s ({:.3} s integration)",
         last.time,
-        first.energy,
-        last.energy,
-        first.length,
-        last.length,
+        digits(first.energy),
+        digits(last.energy),
+        digits(first.length),
+        digits(last.length),
         record.nodes(),
-        record.counters.steps,
+        counted(record.counters.steps, "step"),
         seconds,
         record.counters.integration_seconds,
     )

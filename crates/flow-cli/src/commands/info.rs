@@ -8,7 +8,7 @@ use flow_core::run::{Provenance, Record, Rejections, Share, StopReason, WhySlow}
 use serde_json::{Map, Value, json};
 
 use crate::error::CliError;
-use crate::print::{self, number};
+use crate::print::{self, harmless, number};
 
 /// Show how a run ended, what it conserved and what it cost.
 #[derive(Debug, clap::Args)]
@@ -132,7 +132,7 @@ fn as_table(rows: &[(String, Value)]) -> String {
     let width = rows.iter().map(|(key, _)| key.chars().count()).max().unwrap_or(0);
     let mut table = String::new();
     for (key, value) in rows {
-        let text = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+        let text = value.as_str().map_or_else(|| value.to_string(), harmless);
         let _ = writeln!(table, "{key:width$}  {text}"); // a String never fails
     }
     table.truncate(table.trim_end().len());

@@ -25,13 +25,15 @@ pub struct Args {
 /// Goes on to the end of the run.
 pub fn execute(args: &Args) -> Result<(), CliError> {
     let mut pair = Pair::beside(&args.output);
-    let _lock = Lock::of(&args.output)?;
-    match pair.newest()? {
-        Some(found) => go_on(&args.conduct, found, pair),
-        None if args.output.exists() => {
+    let lock = Lock::of(&args.output);
+    match (pair.newest()?, lock) {
+        // A run that is done may lie where nothing can be written, not even a lock.
+        (None, Ok(_) | Err(StorageError::System { .. })) if args.output.exists() => {
             already_done(&args.conduct, &hdf5_file::read(&args.output)?, &args.output)
         }
-        None => Err(StorageError::NoCheckpoint { path: args.output.clone() }.into()),
+        (_, Err(error)) => Err(error.into()),
+        (Some(found), Ok(_lock)) => go_on(&args.conduct, found, pair),
+        (None, Ok(_)) => Err(StorageError::NoCheckpoint { path: args.output.clone() }.into()),
     }
 }
 

@@ -10,10 +10,19 @@ const MOST_FRAME_BYTES: f64 = 16e9;
 const MOST_DENSE: usize = 4096;
 /// Curvature, metric, velocity and two coordinates.
 const FIELDS: usize = 5;
+/// Bytes of a file for its names and attributes, for the numbers of a frame and for a step of its log: no shipped scene takes more.
+const FILE_BYTES: f64 = 48e3;
+const NUMBERS_BYTES: f64 = 400.0;
+const STEP_BYTES: f64 = 64.0;
 
 /// Bytes of all frames of `scene`, with `extra` fields besides those that every frame holds.
 pub(super) fn frame_bytes(scene: &Scene, layout: Layout, extra: usize) -> f64 {
     8.0 * frames(scene) as f64 * (layout.nodes() * (FIELDS + layout.densities() + extra)) as f64
+}
+
+/// Bytes of the result file of `scene` whose frames take `frame_bytes`, after `steps` steps.
+pub(super) fn file_bytes(scene: &Scene, frame_bytes: f64, steps: f64) -> f64 {
+    frame_bytes + NUMBERS_BYTES * frames(scene) as f64 + STEP_BYTES * steps + FILE_BYTES
 }
 
 /// Checks what `scene` asks for on the nodes of `layout`.
@@ -33,7 +42,7 @@ pub(super) fn check(scene: &Scene, layout: Layout, extra: usize) -> Result<(), S
 }
 
 /// Frames that are saved at most, the first and the last included.
-fn frames(scene: &Scene) -> usize {
+pub(super) fn frames(scene: &Scene) -> usize {
     match &scene.output.frames {
         Frames::Spaced { frames, .. } => frames + 1,
         Frames::At { times } => times.len() + 2,

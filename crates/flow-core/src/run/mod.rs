@@ -42,7 +42,7 @@ pub use interpolant::Interpolant;
 pub use membrane::{ANGLE, CENTRE, DISSIPATED, Membrane};
 pub use nodal_lines::nodal_polylines;
 pub use observer::{Observer, Progress, Quiet};
-pub use prediction::{Prediction, predict};
+pub use prediction::{Prediction, Trial, predict};
 pub use provenance::Provenance;
 pub use record::{Frame, Record, StepLog, StopReason};
 pub use scene::{Scene, SceneError};

@@ -1,71 +1,172 @@
-//! What a run will take: nodes, memory, time; measured on a few trial steps.
+//! What a run will take: nodes, memory, time; measured on a trial run at a loose tolerance.
 
-use super::limits::frame_bytes;
+use std::time::Instant;
+
+use super::limits::{file_bytes, frame_bytes, frames};
 use super::observer::Quiet;
-use super::resolution::{fronts, size_above};
-use super::scene::{Nodes, Scene};
+use super::record::{Record, StopReason};
+use super::resolution::{MOST_NODES, fronts, size_above};
+use super::scene::{Frames, Nodes, Scene, Spacing};
 use super::setup_error::SetupError;
 use super::simulation::Simulation;
 use crate::flow::MetricRole;
 use crate::geometry::Layout;
 
-/// Prediction of a run. Steps and time are rough: within a factor of three for the shipped scenes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Prediction of a run. Steps, time and most nodes are rough: within a factor of two for the shipped scenes.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Prediction {
     /// Number of nodes at the start.
     pub nodes: usize,
-    /// Most nodes expected, where the program chooses them: those that the fronts of the agents need at equal distances.
+    /// Most nodes expected on the way.
     pub most_nodes: usize,
-    /// Length of the state vector.
+    /// Length of the state vector at the start.
     pub unknowns: usize,
-    /// Memory of the solver and of all frames.
+    /// Memory of the process: program, solver, all frames, and the file before it is written.
     pub memory_bytes: f64,
     /// Size of the result file if every frame is reached.
     pub file_bytes: f64,
-    /// Seconds per step, measured.
-    pub seconds_per_step: f64,
-    /// Number of steps until the end time.
+    /// Number of steps until the run stops.
     pub steps: f64,
+    /// Seconds of the integration.
+    pub integration_seconds: f64,
+    /// Seconds for frames and the file.
+    pub output_seconds: f64,
+    /// What this was measured on.
+    pub trial: Trial,
 }
 
-/// Steps taken to measure.
-const TRIAL_STEPS: u64 = 12;
+/// A run of the scene at a loose tolerance with few frames, for a second at most.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trial {
+    /// Its tolerance.
+    pub tolerance: f64,
+    /// The time that it reached.
+    pub time: f64,
+    /// Why it stopped; none if it was given up after its second.
+    pub stop_reason: Option<StopReason>,
+}
+
+/// Tolerance of the trial, unless the scene asks for a looser one.
+const TRIAL_TOLERANCE: f64 = 1e-2;
+const TRIAL_FRAMES: usize = 8;
+/// A trial is given up after so many seconds of integration, but not before so many steps.
+const TRIAL_SECONDS: f64 = 1.0;
+const LEAST_STEPS: usize = 12;
+/// Powers of the tolerance by which steps and nodes grow: the table of the dial in `benches/README.md`.
+const STEPS_POWER: f64 = 0.16;
+const NODES_POWER: f64 = 0.066;
+/// Fewest steps in a decade of time that a trial has not seen.
+const LEAST_PER_DECADE: f64 = 5.0;
 /// Vectors of the size of the state that the solver holds: history, Krylov basis, scratch.
 const SOLVER_VECTORS: f64 = 80.0;
-/// Steps per decade of time at tolerance 1e-5, and the power of the tolerance by which they grow.
-const STEPS_PER_DECADE: f64 = 16.0;
-const POWER: f64 = 0.13;
+/// Memory of the program itself, and copies of all frames while the file is made: measured on files of 0.2 to 800 MB.
+const PROGRAM_BYTES: f64 = 14e6;
+const COPIES_OF_FRAMES: f64 = 3.0;
+/// Bytes of a file per second, checksums included.
+const FILE_BYTES_PER_SECOND: f64 = 300e6;
 
 /// Predicts a run of `scene`.
 ///
 /// # Errors
 /// [`SetupError`] if the scene makes no initial state.
 pub fn predict(scene: &Scene) -> Result<Prediction, SetupError> {
-    let mut simulation = Simulation::new(scene)?;
-    let layout = simulation.layout();
-    while simulation.counters().steps < TRIAL_STEPS && simulation.step(&mut Quiet) {}
-    let steps_taken = simulation.counters().steps.max(1) as f64;
-    let time = simulation.time().max(f64::MIN_POSITIVE);
-    let record = simulation.into_record();
-    let most_nodes = most_nodes(scene, layout.nodes(), record.frames[0].length);
-    let file_bytes = frame_bytes(scene, Layout::new(most_nodes, layout.densities()), record.fields.len());
-    let decades = (scene.time.end / time).log10().max(0.0);
-    let finer = (1e-5 / scene.accuracy.tolerance).powf(POWER);
+    let layout = Simulation::new(scene)?.layout();
+    let (record, step_ends) = run_trial(&trial_scene(scene))?;
+    let trial = Trial {
+        tolerance: trial_tolerance(scene),
+        time: record.steps.time.last().copied().unwrap_or(0.0),
+        stop_reason: (record.stop_reason != StopReason::Interrupted).then(|| record.stop_reason.clone()),
+    };
+    let tighter = trial.tolerance / scene.accuracy.tolerance;
+    let most_nodes = most_nodes(scene, layout.nodes(), &record, tighter);
+    let (steps, seconds) = match trial.stop_reason {
+        Some(_) => (step_ends.len() as f64, step_ends.last().copied().unwrap_or(0.0)),
+        None => extrapolated(&record.steps.time, &step_ends, scene.time.end),
+    };
+    let finer = tighter.powf(STEPS_POWER);
+
+    let most_layout = Layout::new(most_nodes, layout.densities());
+    let frame_bytes = frame_bytes(scene, most_layout, record.fields.len());
+    let file_bytes = file_bytes(scene, frame_bytes, steps * finer);
+    let seconds_per_node =
+        record.seconds.frames / (record.frames.len() * record.frames[0].curvature.len()) as f64;
     Ok(Prediction {
         nodes: layout.nodes(),
         most_nodes,
         unknowns: layout.len(),
-        memory_bytes: 8.0 * SOLVER_VECTORS * layout.len() as f64 + file_bytes,
+        memory_bytes: PROGRAM_BYTES
+            + 8.0 * SOLVER_VECTORS * most_layout.len() as f64
+            + COPIES_OF_FRAMES * frame_bytes,
         file_bytes,
-        seconds_per_step: record.counters.integration_seconds / steps_taken,
-        steps: steps_taken + STEPS_PER_DECADE * decades * finer,
+        steps: steps * finer,
+        integration_seconds: seconds * finer,
+        output_seconds: seconds_per_node * (frames(scene) * most_nodes) as f64
+            + file_bytes / FILE_BYTES_PER_SECOND,
+        trial,
     })
 }
 
-fn most_nodes(scene: &Scene, nodes: usize, initial_length: f64) -> usize {
-    let equidistant = scene.flow.gauge.metric() == MetricRole::Uniform;
-    match scene.accuracy.nodes {
-        Nodes::Auto if equidistant => nodes.max(size_above(fronts(scene, initial_length))),
-        _ => nodes,
+fn trial_tolerance(scene: &Scene) -> f64 {
+    scene.accuracy.tolerance.max(TRIAL_TOLERANCE)
+}
+
+fn trial_scene(scene: &Scene) -> Scene {
+    let mut trial = scene.clone();
+    trial.accuracy.tolerance = trial_tolerance(scene);
+    trial.output.frames = Frames::Spaced { frames: TRIAL_FRAMES, spacing: Spacing::Linear };
+    trial
+}
+
+/// The record of a trial, and the seconds of integration until the end of each step.
+fn run_trial(scene: &Scene) -> Result<(Record, Vec<f64>), SetupError> {
+    let mut simulation = Simulation::new(scene)?;
+    let (mut step_ends, mut seconds) = (Vec::new(), 0.0);
+    let mut under_way = true;
+    while under_way && (seconds < TRIAL_SECONDS || step_ends.len() < LEAST_STEPS) {
+        let clock = Instant::now();
+        under_way = simulation.step(&mut Quiet);
+        seconds += clock.elapsed().as_secs_f64();
+        step_ends.push(seconds);
+    }
+    Ok((simulation.into_record(), step_ends))
+}
+
+/// Steps and seconds to `end` of a trial that was given up: as many steps in each decade of the time, and as long ones, as in its
+/// later half.
+fn extrapolated(times: &[f64], step_ends: &[f64], end: f64) -> (f64, f64) {
+    let (taken, half) = (times.len(), times.len() / 2);
+    let later = (taken - half) as f64;
+    let per_decade = (later / (times[taken - 1] / times[half - 1]).log10()).max(LEAST_PER_DECADE);
+    let more = per_decade * (end / times[taken - 1]).log10().max(0.0);
+    let seconds = step_ends[taken - 1];
+    (taken as f64 + more, seconds + more * (seconds - step_ends[half - 1]) / later)
+}
+
+/// Most nodes of the scene, which starts with `nodes`, from those of the trial of `record` at a tolerance that many times looser.
+fn most_nodes(scene: &Scene, nodes: usize, record: &Record, tighter: f64) -> usize {
+    if scene.accuracy.nodes != Nodes::Auto {
+        return nodes;
+    }
+    let taken = &record.steps.nodes;
+    let (first, most) = (taken.first().copied().unwrap_or(0), taken.iter().copied().max().unwrap_or(0));
+    let grown = if most > first { f64::from(most) * tighter.powf(NODES_POWER) } else { 0.0 };
+    // Fronts that the trial may not have reached.
+    let unseen =
+        record.stop_reason == StopReason::Interrupted && scene.flow.gauge.metric() == MetricRole::Uniform;
+    let fronts = if unseen { fronts(scene, record.frames[0].length) } else { 0.0 };
+    nodes.max(size_above(grown.max(fronts)).min(MOST_NODES))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ten steps in a decade, the later ones twice as long.
+    #[test]
+    fn a_trial_that_was_given_up_goes_on_as_in_its_later_half() {
+        let times: Vec<f64> = (1..=20).map(|step| 10_f64.powf(0.1 * f64::from(step))).collect();
+        let step_ends: Vec<f64> = (1..=20).map(|step| f64::from(step + (step - 10).max(0))).collect();
+        let (steps, seconds) = extrapolated(&times, &step_ends, 1e4);
+        assert!((steps - 40.0).abs() < 1e-9 && (seconds - 70.0).abs() < 1e-9, "{steps} steps, {seconds} s");
     }
 }

@@ -1,5 +1,7 @@
 //! One dataset: chunked, with Fletcher32, dimension scales, a long name and units.
 
+use std::borrow::Cow;
+
 use hdf5_image::{attach_scale, set_scale};
 use hdf5_metno::types::VarLenUnicode;
 use hdf5_metno::{Dataset, Extent, Group, H5Type, Location, SimpleExtents};
@@ -16,9 +18,15 @@ pub(super) struct Axis {
 }
 
 /// Name and units of a dataset.
-pub(super) struct Meaning<'a> {
-    pub long_name: &'a str,
-    pub units: &'a str,
+pub(super) struct Meaning {
+    long_name: Cow<'static, str>,
+    units: &'static str,
+}
+
+impl Meaning {
+    pub fn new(long_name: impl Into<Cow<'static, str>>, units: &'static str) -> Self {
+        Self { long_name: long_name.into(), units }
+    }
 }
 
 /// Turns an error of the library into ours, naming what was being built.
@@ -50,7 +58,7 @@ pub(super) fn dataset<T: H5Type>(
     group: &Group,
     name: &str,
     axes: &[&Axis],
-    meaning: &Meaning<'_>,
+    meaning: &Meaning,
     data: &[T],
 ) -> Result<(), StorageError> {
     let shape: Vec<usize> = axes.iter().map(|axis| axis.length).collect();
@@ -61,7 +69,7 @@ pub(super) fn dataset<T: H5Type>(
     for (number, axis) in (0..).zip(axes) {
         attach_scale(&dataset, &axis.scale, number).map_err(building(name))?;
     }
-    write_text(&dataset, "long_name", meaning.long_name)?;
+    write_text(&dataset, "long_name", &meaning.long_name)?;
     write_text(&dataset, "units", meaning.units)
 }
 

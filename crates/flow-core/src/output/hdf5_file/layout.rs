@@ -1,5 +1,7 @@
 //! What is in a result file, once, for the writer and the reader: an entry is named after the Rust field it holds.
 
+use super::dataset::Meaning;
+use super::meanings;
 use crate::run::{Counters, EvaluationSeconds, Frame, Record, Rejections, Seconds, StepLog};
 
 /// The attribute `Conventions` of every result file; the number changes when readers must.
@@ -102,8 +104,7 @@ pub(super) static EVALUATIONS: &[Entry<EvaluationSeconds, f64>] = entries![Evalu
 /// A group with one dataset per name, each with one value per frame.
 pub(super) struct NamedValues {
     pub group: &'static str,
-    pub long_name: &'static str,
-    pub units: &'static str,
+    pub meaning: fn(&str) -> Meaning,
     pub names: fn(&Record) -> &Vec<String>,
     pub get: fn(&Frame) -> &Vec<f64>,
     pub slot: fn(&mut Frame) -> &mut Vec<f64>,
@@ -113,24 +114,21 @@ pub(super) struct NamedValues {
 pub(super) static NAMED_VALUES: &[NamedValues] = &[
     NamedValues {
         group: "energy_terms",
-        long_name: "energy of the term",
-        units: "energy_unit",
+        meaning: meanings::energy_term,
         names: |record| &record.energy_terms,
         get: |frame| &frame.energy_terms,
         slot: |frame| &mut frame.energy_terms,
     },
     NamedValues {
         group: "mass",
-        long_name: "mass of",
-        units: "density_unit length_unit",
+        meaning: meanings::mass,
         names: |record| &record.densities,
         get: |frame| &frame.mass,
         slot: |frame| &mut frame.mass,
     },
     NamedValues {
         group: "diagnostics",
-        long_name: "distance, in the square mean over the arc length,",
-        units: "unit_of_the_field length_unit0.5",
+        meaning: meanings::diagnostic,
         names: |record| &record.diagnostics,
         get: |frame| &frame.diagnostics,
         slot: |frame| &mut frame.diagnostics,
@@ -140,8 +138,7 @@ pub(super) static NAMED_VALUES: &[NamedValues] = &[
 /// A group with one field per name, each with one value per frame and node.
 pub(super) struct NamedFields {
     pub group: &'static str,
-    pub long_name: &'static str,
-    pub units: &'static str,
+    pub meaning: fn(&str) -> Meaning,
     pub names: fn(&Record) -> &Vec<String>,
     pub get: fn(&Frame) -> &Vec<Vec<f64>>,
     pub slot: fn(&mut Frame) -> &mut Vec<Vec<f64>>,
@@ -151,16 +148,14 @@ pub(super) struct NamedFields {
 pub(super) static NAMED_FIELDS: &[NamedFields] = &[
     NamedFields {
         group: "density",
-        long_name: "density of",
-        units: "density_unit",
+        meaning: meanings::density,
         names: |record| &record.densities,
         get: |frame| &frame.density,
         slot: |frame| &mut frame.density,
     },
     NamedFields {
         group: "fields",
-        long_name: "field",
-        units: "unit_of_the_field",
+        meaning: meanings::field,
         names: |record| &record.fields,
         get: |frame| &frame.fields,
         slot: |frame| &mut frame.fields,

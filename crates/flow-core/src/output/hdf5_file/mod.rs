@@ -4,6 +4,7 @@ mod bounds;
 mod dataset;
 mod heaps;
 mod layout;
+mod meanings;
 mod numbers;
 mod provenance;
 mod reader;

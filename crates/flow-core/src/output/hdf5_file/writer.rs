@@ -71,14 +71,14 @@ fn in_memory() -> Result<File, StorageError> {
 fn write_values(file: &File, record: &Record, frame: &Axis) -> Result<(), StorageError> {
     for entry in FRAME_VALUES {
         let values = per_frame(record, |frame| *(entry.get)(frame));
-        let meaning = Meaning { long_name: entry.long_name, units: entry.units };
+        let meaning = Meaning::new(entry.long_name, entry.units);
         dataset(file, entry.name, &[frame], &meaning, &values)?;
     }
     for list in NAMED_VALUES {
         let group = file.create_group(list.group).map_err(building(list.group))?;
         for (i, name) in (list.names)(record).iter().enumerate() {
             let values = per_frame(record, |frame| (list.get)(frame)[i]);
-            let meaning = Meaning { long_name: &format!("{} {name}", list.long_name), units: list.units };
+            let meaning = (list.meaning)(name);
             dataset(&group, name, &[frame], &meaning, &values)?;
         }
     }
@@ -89,21 +89,21 @@ fn write_fields(file: &File, record: &Record, axes: [&Axis; 3]) -> Result<(), St
     let [frame, node, component] = axes;
     let n = record.nodes();
     let parameter: Vec<f64> = (0..n).map(|i| i as f64 / n as f64).collect();
-    let meaning = Meaning { long_name: "parameter s of the node", units: "1" };
+    let meaning = Meaning::new("parameter s of the node", "1");
     dataset(file, "parameter", &[node], &meaning, &parameter)?;
     for entry in NODAL_FIELDS {
         let values = flat(record, |frame| (entry.get)(frame).as_slice());
-        let meaning = Meaning { long_name: entry.long_name, units: entry.units };
+        let meaning = Meaning::new(entry.long_name, entry.units);
         dataset(file, entry.name, &[frame, node], &meaning, &values)?;
     }
     let position = flat(record, |frame| frame.position.as_flattened());
-    let meaning = Meaning { long_name: "position of the node", units: "length_unit" };
+    let meaning = Meaning::new("position of the node", "length_unit");
     dataset(file, "position", &[frame, node, component], &meaning, &position)?;
     for list in NAMED_FIELDS {
         let group = file.create_group(list.group).map_err(building(list.group))?;
         for (i, name) in (list.names)(record).iter().enumerate() {
             let values = flat(record, |frame| (list.get)(frame)[i].as_slice());
-            let meaning = Meaning { long_name: &format!("{} {name}", list.long_name), units: list.units };
+            let meaning = (list.meaning)(name);
             dataset(&group, name, &[frame, node], &meaning, &values)?;
         }
     }
@@ -116,17 +116,17 @@ fn write_steps(file: &File, record: &Record) -> Result<(), StorageError> {
     let step = axis(&group, "step", steps.time.len())?;
     write_text(&group, "coordinates", "time")?;
     for entry in STEP_VALUES {
-        let meaning = Meaning { long_name: entry.long_name, units: entry.units };
+        let meaning = Meaning::new(entry.long_name, entry.units);
         dataset(&group, entry.name, &[&step], &meaning, (entry.get)(steps))?;
     }
-    let meaning = Meaning { long_name: "order of the method", units: "1" };
+    let meaning = Meaning::new("order of the method", "1");
     dataset(&group, "order", &[&step], &meaning, &steps.order)?;
-    let meaning = Meaning { long_name: "number of nodes in the step", units: "1" };
+    let meaning = Meaning::new("number of nodes in the step", "1");
     dataset(&group, "nodes", &[&step], &meaning, &steps.nodes)?;
     let rejections = group.create_group("rejections").map_err(building("rejections"))?;
     for cause in CAUSES {
         let counts: Vec<u64> = steps.rejections.iter().map(|counts| *(cause.get)(counts)).collect();
-        let meaning = Meaning { long_name: cause.long_name, units: cause.units };
+        let meaning = Meaning::new(cause.long_name, cause.units);
         dataset(&rejections, cause.name, &[&step], &meaning, &counts)?;
     }
     Ok(())

@@ -38,7 +38,7 @@ pub enum TradeoffError {
     Reference { tolerance: f64, nodes: Nodes, source: RunError },
     /// The reference would be coarser than what it measures.
     #[error(
-        "the reference has {nodes} nodes, but the tightest run {least}: it must not have fewer; try {}", 2 * .least
+        "the reference has {nodes} nodes, but a run that it measures {least}: it must not have fewer; try {}", 2 * .least
     )]
     FewerNodes { nodes: usize, least: usize },
     /// An observer asked to stop before the reference was complete.

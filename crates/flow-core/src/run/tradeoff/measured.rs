@@ -123,7 +123,7 @@ pub fn tradeoff(
         densities: scene.density.iter().map(|density| density.name.clone()).collect(),
         span,
         reference: Reference { tolerance, at_rounding, nodes, steps, seconds },
-        rows: climb(scene, ladder, &span, &truth, observer),
+        rows: climb(scene, ladder, &span, &truth, observer)?,
     })
 }
 
@@ -156,14 +156,14 @@ fn reference_nodes(scene: &Scene, ladder: &Ladder) -> Result<Nodes, TradeoffErro
     }
 }
 
-/// Runs every rung.
+/// Runs every rung; none may have more nodes than were asked for the reference, whose errors it would be told as its own.
 fn climb(
     scene: &Scene,
     ladder: &Ladder,
     span: &Span,
     truth: &Outcome,
     observer: &mut dyn LadderObserver,
-) -> Vec<Row> {
+) -> Result<Vec<Row>, TradeoffError> {
     let mut rows: Vec<Row> = Vec::new();
     let count = ladder.tolerances().len();
     let mut interrupted = false;
@@ -175,9 +175,14 @@ fn climb(
             leg::timed(&leg::rung(scene, tolerance, span), observer).map(|run| measured(&run, truth))
         };
         interrupted = matches!(outcome, Err(RunError::Interrupted));
+        if let (Some(nodes), Ok(rung)) = (ladder.reference_nodes(), &outcome)
+            && nodes < rung.nodes
+        {
+            return Err(TradeoffError::FewerNodes { nodes, least: rung.nodes });
+        }
         rows.push(Row { tolerance, outcome });
     }
-    rows
+    Ok(rows)
 }
 
 fn measured(run: &Outcome, truth: &Outcome) -> Rung {

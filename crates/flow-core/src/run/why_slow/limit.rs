@@ -34,6 +34,8 @@ pub enum Limit {
 const MOST: f64 = 0.5;
 /// Part of the attempts that may be rejected for one cause: at a good tolerance less than one in twenty is.
 const REJECTED: f64 = 0.1;
+/// Frames that a file costs more than.
+const FEW_FRAMES: usize = 20;
 /// Krylov iterations of a solve; 1 to 4 are usual.
 const MANY_ITERATIONS: f64 = 8.0;
 
@@ -108,6 +110,10 @@ impl Limit {
                 format!("the run is short: its start takes {} of the time", percent("start")),
                 "run many scenes in one process, from Python, rather than one in each",
             ),
+            Self::Output if record.frames.len() <= FEW_FRAMES => (
+                format!("the run is short: its file takes {} of the time", percent("output")),
+                "run many scenes in one process, from Python, where results are files only if they are saved",
+            ),
             Self::Frames | Self::Output => {
                 (saving(why), "save fewer frames (output.frames), or fewer fields (output.fields)")
             }
@@ -132,7 +138,7 @@ impl Limit {
             Self::ImplicitSolves => (implicit_solves(why), easier_solves(record)),
             Self::Term => dear_term(why),
             Self::Accuracy => (
-                format!("{}; {}", as_long_as_they_may_be(why), most(why)),
+                format!("{}; {}", as_long_as_they_may_be(why), largest_part(why)),
                 "a larger accuracy.tolerance: `curveflow tradeoff` measures what that costs in accuracy",
             ),
         };
@@ -153,13 +159,13 @@ fn as_long_as_they_may_be(why: &WhySlow) -> String {
     )
 }
 
-/// What takes most of the time of the steps.
-fn most(why: &WhySlow) -> String {
+/// What takes the largest part of the time of the steps.
+fn largest_part(why: &WhySlow) -> String {
     let aside = ["start", "frames", "observers", "output"];
     let largest = why.activities.iter().find(|share| !aside.contains(&share.name.as_str()));
     largest.map_or_else(String::new, |share| {
         let name = super::text::readable(&share.name);
-        format!("most of it goes into {name}, {:.0} % of the time", 100.0 * share.share)
+        format!("their largest part is {name}, {:.0} % of the time", 100.0 * share.share)
     })
 }
 

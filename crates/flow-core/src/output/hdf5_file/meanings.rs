@@ -1,0 +1,44 @@
+//! Long names and units of what a scene names: its terms, its densities, and the fields that it asks for.
+
+use super::dataset::Meaning;
+
+/// Energy of a term.
+pub(super) fn energy_term(name: &str) -> Meaning {
+    Meaning::new(format!("energy of the term {name}"), "energy_unit")
+}
+
+/// Mass of a density.
+pub(super) fn mass(name: &str) -> Meaning {
+    Meaning::new(format!("mass of {name}"), "density_unit length_unit")
+}
+
+/// A density.
+pub(super) fn density(name: &str) -> Meaning {
+    Meaning::new(format!("density of {name}"), "density_unit")
+}
+
+/// A distance from the incompressible flow.
+pub(super) fn diagnostic(name: &str) -> Meaning {
+    let long_name = format!("{}, in the square mean over the arc length", spaced(name));
+    let units = match name {
+        "velocity_residual" => "length_unit1.5 time_unit-1",
+        _ => "density_unit length_unit0.5",
+    };
+    Meaning::new(long_name, units)
+}
+
+/// A field of `output.fields`. The strength of a membrane term is measured in units of its own, `epsilon_unit`.
+pub(super) fn field(name: &str) -> Meaning {
+    let units = match name {
+        "normal_force" => "energy_unit length_unit-2",
+        "excess_density" => "density_unit epsilon_unit-1",
+        "membrane_flux" => "density_unit epsilon_unit-1 length_unit-1",
+        _ if name.starts_with("energy_density") => "energy_unit length_unit-1",
+        _ => "length_unit time_unit-1",
+    };
+    Meaning::new(spaced(name), units)
+}
+
+fn spaced(name: &str) -> String {
+    name.replace('_', " ")
+}

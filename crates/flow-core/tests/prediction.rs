@@ -1,0 +1,63 @@
+//! What `curveflow check` foretells, held against the runs themselves.
+
+use flow_core::run::scene::{Frames, Nodes, Spacing};
+use flow_core::run::{Prediction, Quiet, Record, Scene, StopReason, predict, run};
+
+fn shipped(name: &str) -> Scene {
+    let (_, text) = Scene::shipped().iter().find(|(shipped, _)| *shipped == name).expect("shipped");
+    Scene::parse(text, name).expect("valid")
+}
+
+fn both(scene: &Scene) -> (Prediction, Record) {
+    (predict(scene).expect("an initial state"), run(scene, &mut Quiet).expect("an initial state"))
+}
+
+fn assert_near(predicted: f64, taken: f64, factor: f64, what: &str) {
+    assert!(
+        predicted < factor * taken && taken < factor * predicted,
+        "{what}: {predicted} foretold, {taken} taken"
+    );
+}
+
+#[test]
+fn steps_and_nodes_of_the_shipped_scenes_are_foretold_within_a_factor_of_two() {
+    for (name, _) in Scene::shipped() {
+        let (prediction, record) = both(&shipped(name));
+        assert_near(prediction.steps, record.counters.steps as f64, 2.0, &format!("steps of {name}"));
+        let most = record.steps.nodes.iter().copied().max().expect("a step");
+        assert_near(prediction.most_nodes as f64, f64::from(most), 1.5, &format!("nodes of {name}"));
+        assert_eq!(prediction.nodes, record.steps.nodes[0] as usize, "{name}");
+    }
+}
+
+#[test]
+fn the_end_of_a_run_is_foretold() {
+    let (prediction, record) = both(&shipped("three_fold"));
+    assert_eq!(
+        (&prediction.trial.stop_reason, &record.stop_reason),
+        (&Some(StopReason::Equilibrium), &record.stop_reason)
+    );
+    assert_near(prediction.trial.time, record.frames.last().expect("a frame").time, 1.5, "time of the rest");
+
+    // A circle that its tension shrinks to a point.
+    let tension = [("energy.length.tension", "1.0"), ("time.end", "10.0")];
+    let tension = tension.map(|(key, value)| (key.into(), value.into()));
+    let (_, text) = Scene::shipped().iter().find(|(name, _)| *name == "circle").expect("shipped");
+    let mut scene = Scene::parse_with(text, "circle", &tension).expect("valid");
+    scene.energy.bending = None;
+    let trial = predict(&scene).expect("an initial state").trial;
+    assert!(matches!(trial.stop_reason, Some(StopReason::Failed(_))), "{trial:?}");
+    assert!((trial.time - 0.5).abs() < 0.02, "{trial:?}");
+}
+
+#[test]
+fn a_trial_does_without_the_frames_that_the_scene_asks_for() {
+    let mut scene = shipped("three_fold");
+    let few = predict(&scene).expect("an initial state");
+    scene.output.frames = Frames::Spaced { frames: 100_000, spacing: Spacing::Linear };
+    scene.accuracy.nodes = Nodes::Count(512);
+    let many = predict(&scene).expect("an initial state");
+    assert_near(many.steps, few.steps, 1.2, "steps");
+    assert!(many.memory_bytes > 100.0 * few.memory_bytes && many.output_seconds > 30.0 * few.output_seconds);
+    assert!(many.memory_bytes > 2.5 * many.file_bytes, "frames are held, and the file before it is written");
+}
