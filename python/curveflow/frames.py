@@ -141,9 +141,6 @@ class Frames:
         - ``energy_density``: energy per length of the local terms, in energy / length (D3).
         - ``energy_density_bending``, …: the same of each local term (``energy-densities``).
         - ``normal_velocity_bending``, …: what each term adds to the normal velocity (``normal-velocities``).
-
-        ``tangential_velocity`` and ``membrane_flux`` are at the nodes if ``accuracy.derivative`` is ``"fourier"``, the
-        default, else halfway between each node and the next.
         """
         names = self._record.fields
         return MappingProxyType({name: self._record.requested_field(i) for i, name in enumerate(names)})

@@ -38,12 +38,10 @@ pub fn measure(derivative: &str) -> Vec<Piece> {
         ("output.fields", "['membrane-flux']"),
     ];
     let record: Record = run(&shipped("incompressible", &changes));
-    // Fluxes of the central families live half a node on.
-    let shift = if derivative == "fourier" { 0.0 } else { 0.5 / record.nodes() as f64 };
-    [&record.frames[1], last(&record)].into_iter().flat_map(|frame| pieces(frame, shift)).collect()
+    [&record.frames[1], last(&record)].into_iter().flat_map(pieces).collect()
 }
 
-fn pieces(frame: &Frame, shift: f64) -> Vec<Piece> {
+fn pieces(frame: &Frame) -> Vec<Piece> {
     let flux = Interpolant::new(&frame.fields[0]);
     let bent: Vec<f64> =
         frame.curvature.iter().zip(&frame.normal_velocity).map(|(k, v)| k * v * frame.length).collect();
@@ -58,7 +56,7 @@ fn pieces(frame: &Frame, shift: f64) -> Vec<Piece> {
             ends: *ends,
             measured: (forth.integral(start, end) - back.integral(start, end)) / (2.0 * step),
             predicted: stretching.integral(start, end),
-            inflow: flux.at(start - shift) - flux.at(end - shift),
+            inflow: flux.at(start) - flux.at(end),
             scale,
         }
     };

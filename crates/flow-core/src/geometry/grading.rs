@@ -2,6 +2,7 @@
 
 use super::grading_error::GradingError;
 use super::grid::{Complex64, PeriodicGrid};
+use super::midpoints::at_midpoints as interpolated;
 use super::vectors::{mean, mean_of_product, multiply, scale};
 
 /// Largest error, relative to the value, of the grading interpolated to the midpoints.
@@ -53,13 +54,11 @@ impl Grading {
         scale(&mut weight, total);
         scale(&mut at_midpoints, total);
         let mut grid = PeriodicGrid::new(nodes);
-        let (mut spectrum, mut shift) = (vec![Complex64::default(); grid.modes()], vec![0.0; nodes]);
+        let mut spectrum = vec![Complex64::default(); grid.modes()];
         grid.transform(&weight, &mut spectrum);
-        let half: Vec<Complex64> =
-            spectrum.iter().enumerate().map(|(j, w)| w * half_step(&grid, j)).collect();
-        grid.synthesise(&half, &mut shift);
-        for (i, (interpolated, value)) in shift.iter().zip(&at_midpoints).enumerate() {
-            let error = (interpolated / value - 1.0).abs();
+        let mut shift = interpolated(&mut grid, &spectrum);
+        for (i, (between, value)) in shift.iter().zip(&at_midpoints).enumerate() {
+            let error = (between / value - 1.0).abs();
             if error > RESOLVED {
                 let parameter = (i as f64 + 0.5) / nodes as f64;
                 return Err(GradingError::NotResolved { nodes, parameter, error, bound: RESOLVED });
@@ -194,12 +193,15 @@ impl Grading {
         self.shift.iter().enumerate().map(|(i, shift)| i as f64 / count + shift).collect()
     }
 
-    /// Fractions of the arc length at the midpoints, by linear interpolation of x − s.
+    /// Fractions of the arc length at the midpoints, by the trigonometric interpolant of x − s.
     #[must_use]
     pub fn midpoint_fractions(&self) -> Vec<f64> {
         let count = self.nodes();
-        let shift = |i: usize| 0.5 * (self.shift[i] + self.shift[(i + 1) % count]);
-        (0..count).map(|i| (i as f64 + 0.5) / count as f64 + shift(i)).collect()
+        let mut grid = PeriodicGrid::new(count);
+        let mut spectrum = vec![Complex64::default(); grid.modes()];
+        grid.transform(&self.shift, &mut spectrum);
+        let shift = interpolated(&mut grid, &spectrum);
+        shift.iter().enumerate().map(|(i, shift)| (i as f64 + 0.5) / count as f64 + shift).collect()
     }
 
     /// x − s at the nodes.
@@ -247,14 +249,6 @@ impl Grading {
     }
 }
 
-/// Symbol of the shift by half a node distance; the sawtooth vanishes between the nodes.
-pub(super) fn half_step(grid: &PeriodicGrid, mode: usize) -> Complex64 {
-    if Some(mode) == grid.sawtooth_mode() {
-        return Complex64::default();
-    }
-    Complex64::cis(0.5 * grid.wave_number(mode) / grid.nodes() as f64)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -272,6 +266,10 @@ mod tests {
             for (i, x) in grading.fractions().into_iter().enumerate() {
                 let s = i as f64 / nodes as f64;
                 assert!((x - s - 0.5 * (TAU * s).sin() / TAU).abs() < 1e-15, "{x}");
+            }
+            for (i, x) in grading.midpoint_fractions().into_iter().enumerate() {
+                let s = (i as f64 + 0.5) / nodes as f64;
+                assert!((x - s - 0.5 * (TAU * s).sin() / TAU).abs() < 1e-14, "{x} halfway");
             }
             assert!((grading.at(0.25) - 1.0).abs() < 1e-2);
         }

@@ -1,8 +1,9 @@
 //! The grading of a curve whose metric is known at its nodes. See `THEORY.md`, eq. (D8).
 
-use super::grading::{Grading, half_step};
+use super::grading::Grading;
 use super::grading_error::GradingError;
 use super::grid::{Complex64, PeriodicGrid};
+use super::midpoints::at_midpoints;
 
 impl Grading {
     /// The grading w = g/⟨g⟩ of the nodal `metric` g, at the midpoints by trigonometric interpolation.
@@ -14,9 +15,7 @@ impl Grading {
         let mut grid = PeriodicGrid::new(nodes);
         let mut spectrum = vec![Complex64::default(); grid.modes()];
         grid.transform(metric, &mut spectrum);
-        spectrum.iter_mut().enumerate().for_each(|(mode, value)| *value *= half_step(&grid, mode));
-        let mut midpoints = vec![0.0; nodes];
-        grid.synthesise(&spectrum, &mut midpoints);
+        let midpoints = at_midpoints(&mut grid, &spectrum);
         let samples: Vec<f64> =
             metric.iter().zip(&midpoints).flat_map(|(node, next)| [*node, *next]).collect();
         Self::new(&samples)

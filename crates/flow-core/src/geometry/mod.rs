@@ -17,6 +17,7 @@ mod inverse_arc_length;
 mod kept;
 mod measures;
 mod metric_grading;
+mod midpoints;
 mod real_transform;
 mod resampling;
 mod scattered_points;

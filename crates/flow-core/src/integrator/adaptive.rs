@@ -43,6 +43,8 @@ const IN_BALANCE: f64 = 0.3;
 const BALANCED: f64 = 0.1;
 /// Power of the step by which the balance of one step falls, about: that of the polynomials through the dissipation.
 const BALANCE_POWER: f64 = 6.0;
+/// Part of the energy tolerance by which the energy of a flow at rest may flicker: late, steps leave their solves' errors in stiff modes.
+const STILL: f64 = 1e-5;
 /// Smallest factor of the next attempt at a step that was thrown away.
 const LEAST_FACTOR: f64 = 0.5;
 const MOST_POLISHES: usize = 2;
@@ -226,7 +228,8 @@ impl<S: Stepper> Adaptive<S> {
                 if imbalance > 1.0 {
                     return Err(self.refuse(Rejection::Error, growth_in_balance(imbalance).max(LEAST_FACTOR)));
                 }
-                self.rest.watch(time, energy, rounding);
+                let unseen = STILL * self.options.energy_tolerance * energy.abs();
+                self.rest.watch(time, energy, rounding.max(unseen));
                 self.energy = energy;
                 self.stepper.accept(problem, integrals, growth_in_balance(imbalance));
                 problem.accepted(time, self.stepper.integrals());

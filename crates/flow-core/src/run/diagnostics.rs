@@ -1,15 +1,13 @@
 //! What a frame holds on request, and how near a stiff membrane is to an incompressible one.
 
-use super::adaptation::Adaptation;
 use super::energy_density::EnergyDensity;
 use super::energy_terms::{Initial, energy_terms};
 use super::scene::{DensityMobility, NormalMobility, OutputField, Scene};
 use super::setup_error::SetupError;
 use super::term_parts::TermParts;
 use crate::flow::{Carried, EnergySum, ExcessDensity, FlowMap, GradientFlow, Incompressible};
-use crate::geometry::vectors::mean;
 use crate::geometry::{Complex64, Layout, PeriodicGrid};
-use crate::operators::{Derivative, DerivativeFamily, Helmholtz};
+use crate::operators::{Derivative, Helmholtz};
 
 /// Names of the values per frame of a scene with a membrane term.
 const OF_THE_MEMBRANE: [&str; 2] = ["incompressible_distance", "velocity_residual"];
@@ -23,8 +21,7 @@ pub struct Diagnostics {
     /// The flow of the energy without the membrane term, made incompressible.
     incompressible: Option<GradientFlow>,
     membrane: Option<MembraneTerm>,
-    /// Takes fields at flux points to the nodes: frames on other nodes have other flux points, and those of the Fourier family are the
-    /// nodes but for the sake of slopes.
+    /// Takes the flux from its points to the nodes, where frames have their fields, unless these are its points.
     to_nodes: Option<FluxPoints>,
 }
 
@@ -88,10 +85,7 @@ impl Diagnostics {
             .then(|| incompressible(scene, initial, layout, derivative));
         let density =
             fields.contains(&OutputField::EnergyDensity).then(|| energy_terms(scene, initial, nodes));
-        let moves = Adaptation::of(scene).is_some();
-        let for_slopes = derivative.family() == DerivativeFamily::Fourier && derivative.grading().is_none();
-        let staggered = derivative.interpolation().is_some() && (moves || for_slopes);
-        let to_nodes = staggered.then(|| {
+        let to_nodes = derivative.interpolation().map(|_| {
             let grid = PeriodicGrid::new(nodes);
             FluxPoints { spectrum: vec![Complex64::default(); grid.modes()], grid }
         });
@@ -148,10 +142,13 @@ impl Diagnostics {
                 OutputField::TangentialVelocity => {
                     let mut w = vec![0.0; nodes];
                     flow.tangential_velocity(&mut w);
-                    on_nodes(&mut self.to_nodes, w)
+                    w
                 }
                 OutputField::ExcessDensity => excess.density.clone(),
-                OutputField::MembraneFlux => on_nodes(&mut self.to_nodes, excess.flux.clone()),
+                OutputField::MembraneFlux => match &mut self.to_nodes {
+                    Some(flux_points) => flux_points.at_nodes(&excess.flux),
+                    None => excess.flux.clone(),
+                },
                 OutputField::EnergyDensity => {
                     self.energy_density.as_mut().map_or_else(undefined, |density| density.at(flow.current()))
                 }
@@ -167,16 +164,8 @@ impl Diagnostics {
         let off = rho.iter().zip(excess).map(|(rho, excess)| rho - 1.0 - term.epsilon * excess);
         let limit = self.incompressible.as_ref().map_or(&[][..], GradientFlow::normal_velocity);
         let residual = flow.normal_velocity().iter().zip(limit).map(|(v, limit)| v - limit);
-        let norm = |squares: Vec<f64>| (at.length() * mean(&squares)).sqrt();
-        vec![norm(off.map(|w| w * w).collect()), norm(residual.map(|v| v * v).collect())]
-    }
-}
-
-/// A field at flux points at the nodes, if the frames want it there.
-fn on_nodes(flux_points: &mut Option<FluxPoints>, field: Vec<f64>) -> Vec<f64> {
-    match flux_points {
-        Some(flux_points) => flux_points.at_nodes(&field),
-        None => field,
+        let norm = |values: Vec<f64>| (at.length() * at.mean_of_product(&values, &values)).sqrt();
+        vec![norm(off.collect()), norm(residual.collect())]
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::energies::{EnergyTerm, Fields, Jet};
 use crate::flow::CurveFields;
+use crate::geometry::vectors::multiply;
 use crate::geometry::{Complex64, Layout, PeriodicGrid};
 use crate::operators::{Derivative, DerivativeFamily};
 
@@ -67,8 +68,11 @@ impl EnergyDensity {
             for ((slope, phi), symbol) in self.spectrum.iter_mut().zip(at.spectrum(field)).zip(symbols) {
                 *slope = phi * symbol / at.length();
             }
-            let slopes = self.layout.field(count + field);
-            self.grid.synthesise(&self.spectrum, &mut self.fields[slopes]);
+            let slopes = &mut self.fields[self.layout.field(count + field)];
+            self.grid.synthesise(&self.spectrum, slopes);
+            if let Some(grading) = at.grading() {
+                multiply(slopes, grading.inverse());
+            }
         }
     }
 }

@@ -24,5 +24,5 @@ mod resample;
 mod shape;
 
 pub use error::ShapeError;
-pub use resample::Resampled;
+pub use resample::{ByArcLength, Resampled};
 pub use shape::Shape;

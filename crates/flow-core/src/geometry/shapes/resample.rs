@@ -6,6 +6,7 @@ use super::arc_length::ArcLength;
 use super::curve::{Curve, Jet, acceleration, speed, turning};
 use super::error::ShapeError;
 use super::quadrature::{POINTS, mean};
+use crate::geometry::Grading;
 
 /// A curve at n nodes of equal or graded arc length; node 0 is γ(φ = 0).
 #[derive(Clone, Debug, PartialEq)]
@@ -24,34 +25,77 @@ pub struct Resampled {
     pub position: Vec<[f64; 2]>,
 }
 
-/// Resamples `curve` at the `fractions` of its arc length, increasing from 0; `weight` holds the weights of the nodes in
-/// means over the curve, if they are not all 1.
-pub(super) fn resample(
-    curve: &Curve,
-    fractions: &[f64],
-    weight: Option<&[f64]>,
-) -> Result<Resampled, ShapeError> {
-    let nodes = fractions.len();
-    let arc_length = ArcLength::of(curve)?;
-    let places = invert(curve, &arc_length, fractions)?;
-    let phi: Vec<f64> = places.iter().map(|place| place.phi(&arc_length)).collect();
-    let jets = curve.jets(&phi);
-    let turns = f64::from(arc_length.turning_number);
-    let weight = |i: usize| weight.map_or(1.0, |weight| weight[i]);
-    let angle =
-        |(i, (place, jet))| weight(i) * (tangent_angle(&arc_length, place, jet) - TAU * turns * fractions[i]);
-    let mean_of = |axis: usize| {
-        let positions = jets.iter().enumerate().map(|(i, [position, ..])| weight(i) * position[axis]);
-        positions.sum::<f64>() / nodes as f64
-    };
-    Ok(Resampled {
-        curvature: jets.iter().map(|jet| (jet, speed(jet))).map(|(jet, v)| turning(jet, v) / v).collect(),
-        length: arc_length.total(),
-        turning_number: arc_length.turning_number,
-        angle: places.iter().zip(&jets).enumerate().map(angle).sum::<f64>() / nodes as f64,
-        centre: [mean_of(0), mean_of(1)],
-        position: jets.iter().map(|[position, ..]| *position).collect(),
-    })
+/// A curve by its arc length, which is integrated once for all nodes that it gets.
+#[derive(Debug)]
+pub struct ByArcLength {
+    curve: Curve,
+    arc_length: ArcLength,
+}
+
+impl ByArcLength {
+    pub(super) fn new(curve: Curve) -> Result<Self, ShapeError> {
+        Ok(Self { arc_length: ArcLength::of(&curve)?, curve })
+    }
+
+    /// The length |Γ|, to a relative 1e-12.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.arc_length.total()
+    }
+
+    /// The curve at `nodes` nodes, as [`Shape::resample`](super::Shape::resample).
+    ///
+    /// # Errors
+    /// [`ShapeError::NotResolved`] if a node is lost in a cell.
+    /// # Panics
+    /// If `nodes` is 0.
+    pub fn resample(&self, nodes: usize) -> Result<Resampled, ShapeError> {
+        assert!(nodes > 0, "a curve has at least one node");
+        let fractions: Vec<f64> = (0..nodes).map(|i| i as f64 / nodes as f64).collect();
+        self.at(&fractions)
+    }
+
+    /// The curve at graded nodes; node 0 is γ(φ = 0).
+    ///
+    /// # Errors
+    /// As [`resample`](Self::resample).
+    pub fn resample_graded(&self, grading: &Grading) -> Result<Resampled, ShapeError> {
+        self.weighted(&grading.fractions(), Some(grading.weight()))
+    }
+
+    /// The curve at the `fractions` of its arc length, each in [0, 1); its angle and centre are means over these points.
+    ///
+    /// # Errors
+    /// As [`resample`](Self::resample).
+    pub fn at(&self, fractions: &[f64]) -> Result<Resampled, ShapeError> {
+        self.weighted(fractions, None)
+    }
+
+    /// `weight` holds the weights of the nodes in means over the curve, if they are not all 1.
+    fn weighted(&self, fractions: &[f64], weight: Option<&[f64]>) -> Result<Resampled, ShapeError> {
+        let Self { curve, arc_length } = self;
+        let nodes = fractions.len();
+        let places = invert(curve, arc_length, fractions)?;
+        let phi: Vec<f64> = places.iter().map(|place| place.phi(arc_length)).collect();
+        let jets = curve.jets(&phi);
+        let turns = f64::from(arc_length.turning_number);
+        let weight = |i: usize| weight.map_or(1.0, |weight| weight[i]);
+        let angle = |(i, (place, jet))| {
+            weight(i) * (tangent_angle(arc_length, place, jet) - TAU * turns * fractions[i])
+        };
+        let mean_of = |axis: usize| {
+            let positions = jets.iter().enumerate().map(|(i, [position, ..])| weight(i) * position[axis]);
+            positions.sum::<f64>() / nodes as f64
+        };
+        Ok(Resampled {
+            curvature: jets.iter().map(|jet| (jet, speed(jet))).map(|(jet, v)| turning(jet, v) / v).collect(),
+            length: arc_length.total(),
+            turning_number: arc_length.turning_number,
+            angle: places.iter().zip(&jets).enumerate().map(angle).sum::<f64>() / nodes as f64,
+            centre: [mean_of(0), mean_of(1)],
+            position: jets.iter().map(|[position, ..]| *position).collect(),
+        })
+    }
 }
 
 /// The tangent angle at a node, on the branch that continues from φ = 0.

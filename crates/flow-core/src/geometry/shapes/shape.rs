@@ -1,10 +1,9 @@
 //! The curves a scene can name.
 
-use super::arc_length::ArcLength;
 use super::curve::Curve;
 use super::error::ShapeError;
 use super::points::Interpolated;
-use super::resample::{Resampled, resample};
+use super::resample::{ByArcLength, Resampled};
 use crate::expression::Expression;
 use crate::geometry::Grading;
 
@@ -57,23 +56,28 @@ impl Shape {
     /// # Panics
     /// If `nodes` is 0.
     pub fn resample(&self, nodes: usize) -> Result<Resampled, ShapeError> {
-        assert!(nodes > 0, "a curve has at least one node");
-        let fractions: Vec<f64> = (0..nodes).map(|i| i as f64 / nodes as f64).collect();
-        resample(&self.curve()?, &fractions, None)
+        self.by_arc_length()?.resample(nodes)
     }
 
     /// The curve at graded nodes; node 0 is γ(φ = 0).
     /// # Errors
     /// As [`resample`](Self::resample).
     pub fn resample_graded(&self, grading: &Grading) -> Result<Resampled, ShapeError> {
-        resample(&self.curve()?, &grading.fractions(), Some(grading.weight()))
+        self.by_arc_length()?.resample_graded(grading)
     }
 
     /// The length |Γ|, to a relative 1e-12.
     /// # Errors
     /// As [`resample`](Self::resample).
     pub fn length(&self) -> Result<f64, ShapeError> {
-        Ok(ArcLength::of(&self.curve()?)?.total())
+        Ok(self.by_arc_length()?.length())
+    }
+
+    /// The curve by its arc length, for nodes of many numbers.
+    /// # Errors
+    /// As [`resample`](Self::resample).
+    pub fn by_arc_length(&self) -> Result<ByArcLength, ShapeError> {
+        ByArcLength::new(self.curve()?)
     }
 
     fn curve(&self) -> Result<Curve, ShapeError> {

@@ -19,7 +19,7 @@ pub(super) fn density(name: &str) -> Meaning {
 
 /// A distance from the incompressible flow.
 pub(super) fn diagnostic(name: &str) -> Meaning {
-    let long_name = format!("{}, in the square mean over the arc length", spaced(name));
+    let long_name = format!("{}, its norm in L2 over the arc length", spaced(name));
     let units = match name {
         "velocity_residual" => "length_unit1.5 time_unit-1",
         _ => "density_unit length_unit0.5",

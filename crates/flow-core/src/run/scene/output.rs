@@ -58,18 +58,16 @@ names! {
 }
 
 names! {
-    /// A field that frames hold on request. Fluxes and tangential velocities live at the flux points of the derivative
-    /// family: the nodes for `fourier`, else the middle between a node and the next; at the nodes in any case where the program
-    /// chooses them.
+    /// A field that frames hold on request, at the nodes.
     pub enum OutputField {
         /// The force f on the normal motion, before the mobility.
         NormalForce = "normal-force",
-        /// The tangential velocity W of the gauge, at the flux points.
+        /// The tangential velocity W of the gauge.
         TangentialVelocity = "tangential-velocity",
         /// ρ̄ = −H⁻¹(κV̂) with the force V̂ of all terms but the membrane's: an incompressible membrane of
         /// compressibility ε has the density 1 + ερ̄.
         ExcessDensity = "excess-density",
-        /// −∇_sρ̄ in the direction of the tangent, at the flux points.
+        /// −∇_sρ̄ in the direction of the tangent.
         MembraneFlux = "membrane-flux",
         /// Energy per length of the local terms: not of functions of the length or of the positions.
         EnergyDensity = "energy-density",

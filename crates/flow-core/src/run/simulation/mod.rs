@@ -61,6 +61,8 @@ pub struct Simulation {
     gauges: Gauges,
     /// Chooses the nodes, if the scene leaves that to the program.
     adaptation: Option<Adaptation>,
+    /// Whether nodes that the scene fixes have missed some of its data: then the run is one of other data.
+    misses_data: bool,
     mesh: Mesh,
     /// Accepted steps when the nodes were chosen.
     remapped_at: u64,
@@ -222,6 +224,7 @@ impl Simulation {
         steps.order.push(report.order as u8);
         steps.nodes.push(self.membrane.layout().nodes() as u32);
         steps.rejections.push(report.rejections);
+        self.record.counters.unresolved_steps += u64::from(self.misses_data);
     }
 
     fn save_frames(&mut self) {

@@ -16,6 +16,11 @@ const COARSE_PART: f64 = 0.1;
 /// Part of the energy lost so far below which an energy counts as zero.
 const ENERGY_FLOOR: f64 = 1e-3;
 
+/// Whether nodes that the scene fixes are too few if they leave such a part of a field unresolved.
+pub(super) fn is_coarse(part: f64, tolerance: f64) -> bool {
+    part > COARSE.max(COARSE_PART * tolerance)
+}
+
 impl Simulation {
     /// Takes other nodes if the state at hand asks for them or allows it.
     pub(super) fn adapt(&mut self, time: f64, energy: f64) {
@@ -32,7 +37,7 @@ impl Simulation {
             Look::Unresolved => (false, None),
             Look::Hopeless(error) => (false, Some(error)),
         };
-        self.record.counters.unresolved_steps += u64::from(!served);
+        self.record.counters.unresolved_steps += u64::from(!served && !self.misses_data);
         let seconds = clock.elapsed().as_secs_f64();
         self.record.counters.integration_seconds += seconds;
         self.clocks.remaps += seconds;
@@ -43,11 +48,11 @@ impl Simulation {
 
     /// On nodes that the scene fixes: counts steps that they are far from resolving.
     fn count_unresolved(&mut self) {
-        if self.counters().steps.is_multiple_of(FIXED_LOOKS) {
+        if !self.misses_data && self.counters().steps.is_multiple_of(FIXED_LOOKS) {
             let family = self.membrane.flow().grid_and_derivative().1.family();
             let (layout, state) = (self.membrane.layout(), self.integration.stepper().state());
             let part = unresolved(layout, state, layout.nodes(), family);
-            if part > COARSE.max(COARSE_PART * self.tolerance) {
+            if is_coarse(part, self.tolerance) {
                 self.record.counters.unresolved_steps += FIXED_LOOKS;
             }
         }

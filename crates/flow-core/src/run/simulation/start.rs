@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use super::clocks::Clocks;
+use super::remap::is_coarse;
 use super::{ENERGY_TOLERANCE_SHARE, Simulation};
 use crate::flow::MetricRole;
 use crate::integrator::{
@@ -13,7 +14,7 @@ use crate::run::frames::{Start, frame};
 use crate::run::membrane::Membrane;
 use crate::run::provenance::Provenance;
 use crate::run::record::{Record, StepLog, StopReason};
-use crate::run::scene::Scene;
+use crate::run::scene::{Nodes, Scene};
 use crate::run::schedule::frame_times;
 use crate::run::seconds::Seconds;
 use crate::run::setup::Setup;
@@ -39,6 +40,7 @@ impl Simulation {
             gauges,
             mesh,
             adaptation,
+            missed,
             ..
         } = setup;
         if let Some(fault) = membrane.flow().fault() {
@@ -98,6 +100,7 @@ impl Simulation {
             integration: Adaptive::new(stepper, options, energy, counters),
             gauges,
             adaptation,
+            misses_data: scene.accuracy.nodes != Nodes::Auto && is_coarse(missed, scene.accuracy.tolerance),
             mesh,
             remapped_at: 0,
             switches: 0,
