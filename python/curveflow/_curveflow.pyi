@@ -33,6 +33,7 @@ __all__ = [
 ]
 
 _Array = NDArray[np.float64]
+_Rung = tuple[float, int, int, float, list[list[float]]]
 VERSION: str
 
 @final
@@ -138,8 +139,30 @@ class System:
     def precondition(self, r: NDArray[np.float64]) -> None: ...
 
 def schema() -> str: ...
+
 @final
 class Tradeoff:
+    def __new__(
+        cls,
+        title: str,
+        densities: list[str],
+        span: tuple[float, float, str],
+        reference: tuple[float, bool, int, int, float],
+        rungs: list[_Rung],
+        runs: list[tuple[float, str | None]],
+        interrupted: bool,
+    ) -> Tradeoff: ...
+    def __getnewargs__(
+        self,
+    ) -> tuple[
+        str,
+        list[str],
+        tuple[float, float, str],
+        tuple[float, bool, int, int, float],
+        list[_Rung],
+        list[tuple[float, str | None]],
+        bool,
+    ]: ...
     @property
     def title(self) -> str: ...
     @property
@@ -158,6 +181,7 @@ class Tradeoff:
     def values(self, name: str) -> NDArray[np.float64]: ...
     def counts(self, name: str) -> NDArray[np.uint64]: ...
     def errors(self, number: int) -> NDArray[np.float64]: ...
+    def picture(self, path: str | os.PathLike[str], replace: bool) -> None: ...
 
 def check_writable(path: str | os.PathLike[str], replace: bool) -> None: ...
 def file_bytes(record: Record) -> bytes: ...

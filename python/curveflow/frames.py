@@ -163,8 +163,8 @@ class Frames:
     def steps(self) -> Mapping[str, NDArray[Any]]:
         """The log of accepted steps, arrays of shape (step,), copied once: files and pictures need the log as well.
 
-        ``time``, ``energy`` and ``dissipation`` at the end of the step, its ``size``, the ``order`` of the method,
-        and the attempts rejected before it by cause: ``rejections_error``, ``rejections_solver``,
+        ``time``, ``energy`` and ``dissipation`` at the end of the step, its ``size``, the ``order`` of the method, the
+        number of ``nodes``, and the attempts rejected before it by cause: ``rejections_error``, ``rejections_solver``,
         ``rejections_energy_rise`` and ``rejections_not_finite``.
         """
         return MappingProxyType(self._record.steps())

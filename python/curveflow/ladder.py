@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from types import MappingProxyType
@@ -55,7 +56,7 @@ class Tradeoff:
     All arrays are read-only and have one entry per run, the loosest tolerance first. A run that failed has NaN as
     errors and seconds, and 0 nodes and steps; :attr:`failures` tells why.
 
-    Made by :func:`curveflow.tradeoff`.
+    Made by :func:`curveflow.tradeoff`. It can be copied and pickled, which keeps it.
     """
 
     def __init__(self, native: _curveflow.Tradeoff) -> None:
@@ -141,7 +142,7 @@ class Tradeoff:
         return Setting(float(self.tolerance[run]), float(self.error[run]), *counts, float(self.seconds[run]))
 
     def plot(self, figure: Figure | None = None) -> Figure:
-        """Draw errors against seconds at both times, as ``curveflow tradeoff`` does.
+        """Draw errors against seconds at both times: the panels of ``curveflow tradeoff``.
 
         Args:
             figure: where to draw; a new figure of pyplot if none is given.
@@ -152,6 +153,22 @@ class Tradeoff:
         from . import ladder_plot
 
         return ladder_plot.plot(self, figure)
+
+    def picture(self, path: str | os.PathLike[str], replace: bool = False) -> None:
+        """Write the figure of ``curveflow tradeoff``, that of :meth:`plot`, as a PNG or SVG file; needs no matplotlib.
+
+        Args:
+            path: its name, which ends in ``.png`` or ``.svg``.
+            replace: whether an existing file may be replaced.
+
+        Raises:
+            StorageError: no run was measured, or the file exists, has another ending, or cannot be written; an existing
+                one is then as it was.
+        """
+        self._native.picture(path, replace)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return Tradeoff, (self._native,)
 
     def __repr__(self) -> str:
         measured = sum(failure is None for failure in self.failures)

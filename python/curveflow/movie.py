@@ -16,8 +16,8 @@ from .frames import Array
 if TYPE_CHECKING:
     from .result import Result
 
-# Smaller panels are not to be read, larger ones fill the memory.
-_PIXELS = range(200, 4097)
+# Smaller letters are not to be read, larger images fill the memory.
+_LEAST, _MOST = (400, 240), 4096
 
 
 def animate(
@@ -100,6 +100,7 @@ def checked(size: tuple[int, int]) -> tuple[int, int]:
         ValueError: it is out of range, or odd.
     """
     width, height = (index(pixels) for pixels in size)
-    if width not in _PIXELS or height not in _PIXELS or width % 2 or height % 2:
-        raise ValueError(f"size = {size}: width and height must be even numbers of pixels from 200 to 4096")
+    for name, pixels, least in zip(("width", "height"), (width, height), _LEAST, strict=True):
+        if not least <= pixels <= _MOST or pixels % 2:
+            raise ValueError(f"size = {size}: the {name} must be an even number of pixels from {least} to {_MOST}")
     return width, height

@@ -13,7 +13,10 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from .frames import Array
 from .movie_file import Image
-from .plotting import closed, history, plain, scale_time
+from .history_plot import BLUE, energy_history
+from .periodic import closed, refined
+from .plotting import plain
+from .scales import fit, from_start, scale_time
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -21,11 +24,13 @@ if TYPE_CHECKING:
     from .result import Result
 
 _DPI = 100
+# Width and height in pixels of the least page; what is smaller is a smaller image of it, down to letters of 9 pixels.
+_PAGE = (640, 360)
 # Percent of the values at either end that may lie outside the scale of colours, where they would take most of it.
 _OUTLIERS = 0.5
 # Range of a usual image, as a part of that of all, below which the scale is logarithmic down to the least part of its ends.
 _FADES, _LEAST = 0.05, 1e-4
-_BLUE, _GREY = "#0072B2", "0.75"
+_GREY = "0.75"
 
 
 class Stage:
@@ -35,9 +40,10 @@ class Stage:
         self, result: Result, label: str, values: Array, shown: list[int], size: tuple[int, int]
     ) -> None:
         self._result, self._values = result, values
-        width, height = size
+        dpi = _DPI * min(1.0, *(pixels / least for pixels, least in zip(size, _PAGE, strict=True)))
+        width, height = (pixels / dpi for pixels in size)
         layout = ConstrainedLayoutEngine(w_pad=0.1, h_pad=0.1)
-        self._figure = Figure(figsize=(width / _DPI, height / _DPI), dpi=_DPI, layout=layout)
+        self._figure = Figure(figsize=(width, height), dpi=dpi, layout=layout)
         self._canvas = FigureCanvasAgg(self._figure)
         left, right = self._figure.subplots(1, 2, width_ratios=(1.35, 1))
         self._curve = self._set_curve(left, label, shown, height)
@@ -58,7 +64,7 @@ class Stage:
         return image[:, :, :3].copy()
 
     def _move(self, frame: int) -> None:
-        points, value = closed(self._result.position[frame]), closed(self._values[frame])
+        points, value = (closed(refined(values[frame])) for values in (self._result.position, self._values))
         self._curve.set_segments(list(np.stack([points[:-1], points[1:]], axis=1)))
         self._curve.set_array(0.5 * (value[:-1] + value[1:]))
         time = float(self._result.time[frame])
@@ -67,13 +73,12 @@ class Stage:
         self._past.set_data(self._history[0][past], self._history[1][past])
         self._now.set_data([max(time, self._first)], [self._result.energy[frame]])
 
-    def _set_curve(self, axes: Axes, label: str, shown: list[int], height: int) -> LineCollection:
-        start = closed(self._result.position[0])
-        axes.plot(*start.T, color="0.6", linewidth=1, linestyle="--")
+    def _set_curve(self, axes: Axes, label: str, shown: list[int], height: float) -> LineCollection:
+        axes.plot(*closed(refined(self._result.position[0])).T, color="0.6", linewidth=1, linestyle="--")
         axes.set_title("dashed: initial", loc="right", fontsize="small", color="0.4")
         values = self._values[shown]
         scale, extend = _scale(values)
-        lines = LineCollection([], linewidths=height / 130, capstyle="round", cmap="viridis", norm=scale)
+        lines = LineCollection([], linewidths=height * _DPI / 130, capstyle="round", cmap="viridis", norm=scale)
         axes.add_collection(lines, autolim=False)
         points = self._result.position[[0, *shown]].reshape(-1, 2)
         middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
@@ -86,14 +91,13 @@ class Stage:
         return lines
 
     def _set_history(self, axes: Axes) -> None:
-        time, energy = history(self._result)
+        time, energy = energy_history(self._result)
         self._first = scale_time(axes, time)
-        # Of what lies before a logarithmic axis the last stands at its start.
-        start = max(int(np.searchsorted(time, self._first, side="right")) - 1, 0)
-        self._history = np.maximum(time[start:], self._first), energy[start:]
+        fit(axes, "y", energy)
+        self._history = from_start(time, energy, self._first)
         axes.plot(*self._history, color=_GREY, linewidth=1.5)
-        (self._past,) = axes.plot([], [], color=_BLUE, linewidth=2)
-        (self._now,) = axes.plot([], [], "o", color=_BLUE, clip_on=False)
+        (self._past,) = axes.plot([], [], color=BLUE, linewidth=2)
+        (self._now,) = axes.plot([], [], "o", color=BLUE, clip_on=False)
         axes.set(xlabel="time $t$", ylabel="energy")
 
 

@@ -7,16 +7,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .extras import need
-from .result import Array, Result
+from .history_plot import BLUE, draw_history
+from .periodic import arc_length_fraction, closed, refined
+from .result import Result
+from .scales import CONSTANT, around
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_BLUE, _GREEN, _PURPLE, _VERMILION = "#0072B2", "#009E73", "#A85088", "#D55E00"
+__all__ = ["draw_curve", "draw_history", "draw_nodal_lines", "draw_state", "plot"]
+
+_GREEN, _VERMILION = "#009E73", "#D55E00"
 _INITIAL: dict[str, Any] = {"color": "0.5", "linewidth": 1.2, "linestyle": "--"}
-_MOST_DECADES = 1e-10
-_CONSTANT = 1e-6
+# A curve that is smaller than this part of the initial one is marked by a dot.
+_DOT = 0.01
 
 
 def plot(result: Result, figure: Figure | None = None) -> Figure:
@@ -42,16 +47,18 @@ def draw_curve(result: Result, axes: Axes, frame: int = -1) -> None:
     from matplotlib.collections import LineCollection
 
     name, values = next(iter(result.density.items()), ("curvature", result.curvature))
-    curve, value = closed(result.position[frame]), closed(values[frame])
-    axes.plot(*closed(result.position[0]).T, **_INITIAL, label="initial")
+    initial, curve = (closed(refined(result.position[which])) for which in (0, frame))
+    value = closed(refined(values[frame]))
+    axes.plot(*initial.T, **_INITIAL, label="initial")
     lines = LineCollection(
         list(np.stack([curve[:-1], curve[1:]], axis=1)), linewidths=4, capstyle="round", cmap="viridis"
     )
     lines.set_array(0.5 * (value[:-1] + value[1:]))
-    if np.ptp(value) < _CONSTANT * np.abs(value).max():  # colours would show nothing but rounding
-        margin = 0.01 * np.abs(value).max()
-        lines.set_clim(value.min() - margin, value.max() + margin)
+    if np.ptp(value) < CONSTANT * np.abs(value).max():  # colours would show nothing but rounding
+        lines.set_clim(*around(value, 0.0))
     axes.add_collection(lines)
+    if np.ptp(curve, axis=0).max() < _DOT * np.ptp(initial, axis=0).max():
+        axes.plot(*curve.mean(axis=0), "ko", markersize=4)
     axes.set(xlabel="$x$", ylabel="$y$", title=f"$t$ = {result.time[frame]:.4g}")
     axes.set_aspect("equal", adjustable="datalim")
     axes.autoscale_view()
@@ -61,55 +68,32 @@ def draw_curve(result: Result, axes: Axes, frame: int = -1) -> None:
 
 
 def draw_state(result: Result, axes: Axes, frame: int = -1) -> None:
-    """Draw curvature against density with the nodal lines of the energy; without a density, against arc length."""
+    """Draw curvature against the first density, with the nodal lines of the energy, of one frame.
+
+    Without a density, draw curvature against the fraction of the arc length, over that of the initial curve.
+    """
     _pyplot()
-    kappa = result.curvature
+    last = frame in (-1, len(result.time) - 1)
+    label = "final" if last else f"$t$ = {result.time[frame]:.4g}"
+    kappa = refined(result.curvature[frame])
     if result.density:
-        name, rho = next(iter(result.density.items()))
-        axes.plot(closed(rho[0]), closed(kappa[0]), **_INITIAL, label="initial")
-        axes.plot(closed(rho[frame]), closed(kappa[frame]), "k", linewidth=2, label="final")
+        name, densities = next(iter(result.density.items()))
+        rho = refined(densities[frame])
+        axes.plot(closed(rho), closed(kappa), "k", linewidth=2, label=label)
+        if all(np.ptp(values) <= CONSTANT * np.abs(values).max() for values in (rho, kappa)):
+            axes.plot(rho.mean(), kappa.mean(), "ko")
+        # Room for the nodal lines around the state, which ends on them.
+        axes.set(xlim=around(rho, 0.15), ylim=around(kappa, 0.15))
+        axes.locator_params(axis="x", nbins=6)
         draw_nodal_lines(result, axes)
         axes.set(xlabel=f"{plain(name)} density $\\rho$", ylabel="curvature $\\kappa$")
     else:
-        axes.plot(_arc_length(result.metric[0]), closed(kappa[0]), **_INITIAL, label="initial")
-        axes.plot(_arc_length(result.metric[frame]), closed(kappa[frame]), _PURPLE, label="final")
-        axes.set(xlabel="arc length $\\sigma$", ylabel="curvature $\\kappa$")
+        initial = refined(result.curvature[0])
+        axes.plot(arc_length_fraction(refined(result.metric[0])), closed(initial), **_INITIAL, label="initial")
+        axes.plot(arc_length_fraction(refined(result.metric[frame])), closed(kappa), "k", linewidth=2, label=label)
+        axes.set(xlim=(0, 1), ylim=around(np.concatenate([initial, kappa]), 0.1))
+        axes.set(xlabel="arc length $\\sigma/|\\Gamma|$", ylabel="curvature $\\kappa$")
     axes.legend(fontsize="small", frameon=False)
-
-
-def draw_history(result: Result, axes: Axes) -> None:
-    """Draw energy (left) and length (right) over time, in decades of time where the run spans several."""
-    _pyplot()
-    time, energy = history(result)
-    (left,) = axes.plot(time, energy, color=_BLUE, label="energy")
-    right_axes = axes.twinx()
-    (right,) = right_axes.plot(result.time, result.length, "--", color=_VERMILION, label="length")
-    scale_time(axes, time)
-    axes.set(xlabel="time $t$", ylabel="energy")
-    right_axes.set_ylabel("length", color=_VERMILION)
-    # Above the panel: within it the lines may be anywhere.
-    place = (0.0, 1.0)
-    axes.legend(handles=[left, right], ncols=2, fontsize="small", frameon=False, loc="lower left", bbox_to_anchor=place)
-
-
-def history(result: Result) -> tuple[Array, Array]:
-    """Return time and energy of every step, or of the frames where these are more."""
-    steps = result.steps
-    if len(steps["time"]) < len(result.time):
-        return result.time, result.energy
-    time = np.append(result.time[0], steps["time"])
-    return time, np.append(result.energy[0], steps["energy"])
-
-
-def scale_time(axes: Axes, time: Array) -> float:
-    """Make the axis of time logarithmic if the run spans several decades; return where it starts."""
-    end = float(time[-1])
-    start = max(float(np.min(time[time > 0], initial=end)), end * _MOST_DECADES)
-    if end > 10 * start > 0:
-        axes.set_xscale("log")
-        axes.set_xlim(start, end)
-        return start
-    return float(time[0])
 
 
 def draw_nodal_lines(result: Result, axes: Axes) -> None:
@@ -124,24 +108,13 @@ def draw_nodal_lines(result: Result, axes: Axes) -> None:
         return
     _, preferred, low, high = lines
     axes.plot(rho, preferred, color=_VERMILION, label="$\\kappa_0(\\rho)$")
-    axes.plot(low, kappa, "--", color=_BLUE, label="$\\rho_-(\\kappa)$")
+    axes.plot(low, kappa, "--", color=BLUE, label="$\\rho_-(\\kappa)$")
     axes.plot(high, kappa, ":", color=_GREEN, label="$\\rho_+(\\kappa)$")
     axes.set(xlim=(left, right), ylim=(bottom, top))
 
 
 def _pyplot() -> Any:
     return need("matplotlib.pyplot", "plotting", "plot")
-
-
-def closed(values: Array) -> Array:
-    """Nodal values with the first one repeated at the end."""
-    return np.concatenate([values, values[:1]])
-
-
-def _arc_length(metric: Array) -> Array:
-    """Arc length of the nodes from the first one, once around."""
-    around = closed(metric)
-    return np.append(0.0, np.cumsum(0.5 * (around[:-1] + around[1:]) / len(metric)))
 
 
 def plain(text: str) -> str:

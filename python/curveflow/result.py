@@ -82,8 +82,8 @@ class Result(Frames):
     def stats(self) -> Mapping[str, int | float]:
         """Counters of work by name (steps, rejections by cause, right-hand sides, …), and seconds of wall time.
 
-        ``integration_seconds`` are those of all steps, also before a restart; ``seconds_start``, ``seconds_solves``, …, by
-        what they were spent on, are described in :meth:`why_slow`.
+        ``integration_seconds`` are those of all steps, also before a restart; ``seconds_start``, ``seconds_solves``, … are
+        :attr:`WhySlow.seconds`, by what they were spent on.
         """
         return MappingProxyType(self._record.counters())
 
@@ -92,7 +92,7 @@ class Result(Frames):
         return WhySlow._of(self._record)
 
     def plot(self, figure: Figure | None = None) -> Figure:
-        """Draw the final curve, its state, and energy and length over time, as ``curveflow plot`` does.
+        """Draw the final curve, its state, and energy and length over time: the panels of ``curveflow plot``.
 
         Args:
             figure: where to draw; a new figure of pyplot if none is given. The panels alone, for axes of your own,
@@ -147,7 +147,7 @@ class Result(Frames):
                 :attr:`fields` by its name; the first density, or else the curvature, if none is given.
             frames: which saved frames to show: how many, spread evenly over them, or their indices; all if absent.
             fps: frames per second.
-            size: width and height in pixels, even numbers.
+            size: width and height in pixels, even numbers, from 400 × 240 on.
             replace: whether an existing file may be replaced.
 
         Raises:

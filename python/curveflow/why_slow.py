@@ -31,7 +31,19 @@ class WhySlow:
     krylov_iterations_per_solve: float
     """Krylov iterations of a linear solve, in the mean."""
     seconds: Mapping[str, float]
-    """Seconds by what they were spent on, largest first; they add up to :attr:`total`."""
+    """Seconds by what they were spent on, largest first; they add up to :attr:`total`.
+
+    - ``start``: from the scene to the first frame;
+    - ``right_hand_sides``, ``linearisations``, ``jacobian_products``: evaluations of the flow, at the iterates of Newton's
+      method, with second derivatives at the predictor of a step, and in linear solves;
+    - ``factorisations``, ``solves``, ``krylov``: the preconditioner, and the rest of the linear solves;
+    - ``checks``: closure, energy and dissipation of each finished step;
+    - ``step_control``: its error, size and order;
+    - ``remaps``: changes of the nodes or of the gauge;
+    - ``frames``: frames with all that they hold;
+    - ``observers``: progress and callbacks;
+    - ``output``: checkpoints, and the result file up to where its bytes leave for the disk.
+    """
     evaluation_seconds: Mapping[str, float]
     """Seconds by part of the right-hand sides, linearisations, Jacobian products and checks, which they add up to.
 

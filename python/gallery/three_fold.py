@@ -38,8 +38,6 @@ def three_fold() -> Figure:
     trace.plot(closed(rho[-1]), closed(result.curvature[-1]), color=BLACK, linewidth=2, label="equilibrium")
     trace.legend(loc="lower left", bbox_to_anchor=(0.22, 0.0))
     draw_history(result, history)
-    twin = below.axes[-1]
-    history.legend(handles=[history.lines[0], twin.lines[0]], loc="center left")
     return figure
 
 

@@ -84,7 +84,7 @@ def test_existing_movies_are_kept(growth: cf.Result, tmp_path: Path):
         growth.animate(tmp_path / "none" / "circle.gif", frames=1)
     with pytest.raises(ValueError, match="no frame 12, the result has 12"):
         growth.animate(path, frames=[12], replace=True)
-    for wrong in ({"fps": 0}, {"fps": 60}, {"size": (401, 240)}, {"size": (100, 100)}, {"frames": 0}, {"frames": []}):
+    for wrong in ({"fps": 0}, {"fps": 60}, {"size": (401, 240)}, {"size": (200, 200)}, {"frames": 0}, {"frames": []}):
         with pytest.raises(ValueError, match=next(iter(wrong))):
             growth.animate(path, replace=True, **wrong)  # type: ignore[arg-type]
     assert path.read_text() == "precious"
@@ -134,3 +134,37 @@ def test_the_scale_of_colours_suits_the_whole_movie(membrane: cf.Result):
     assert isinstance(norm, SymLogNorm) and norm.vmin == -norm.vmax and extend == "both"
     norm, _ = _scale(np.ones((3, 8)))
     assert norm.vmin < 1 < norm.vmax
+
+
+def test_sizes_that_cannot_be_read_are_refused():
+    assert movie.checked((400, 240)) == (400, 240) and movie.checked((4096, 4096)) == (4096, 4096)
+    with pytest.raises(ValueError, match=r"size = \(200, 300\): the width must be an even number of pixels from 400 to 4096"):
+        movie.checked((200, 300))
+    with pytest.raises(ValueError, match=r"size = \(400, 200\): the height must be an even number of pixels from 240 to 4096"):
+        movie.checked((400, 200))
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("size", [(400, 240), (402, 1000), (1000, 240), (960, 540)])
+def test_texts_keep_apart_at_every_size(membrane: cf.Result, size: tuple[int, int]):
+    from curveflow.movie_stage import Stage
+
+    stage = Stage(membrane, *movie.coloured(membrane, None), [0, 9], size)
+    assert stage.image(9).shape == (size[1], size[0], 3)
+    panel = stage._figure.axes[0]
+    heading, note = panel._left_title.get_window_extent(), panel._right_title.get_window_extent()  # type: ignore[attr-defined]
+    assert heading.x1 < note.x0
+    for axes in stage._figure.axes[:2]:
+        boxes = sorted((label.get_window_extent() for label in axes.get_xticklabels() if label.get_text()), key=lambda box: box.x0)
+        assert axes.get_window_extent().width > 0.15 * size[0]
+        assert all(box.x1 < following.x0 for box, following in zip(boxes, boxes[1:], strict=False))
+
+
+def test_a_movie_starts_with_the_initial_energy_and_round_curves(growth: cf.Result):
+    from curveflow.movie_stage import Stage
+
+    stage = Stage(growth, *movie.coloured(growth, None), [0, 11], (400, 240))
+    stage.image(0)
+    assert stage._now.get_ydata()[0] == growth.energy[0]
+    assert stage._past.get_xydata().shape == (1, 2)
+    assert growth.position.shape[1] < 400 <= len(stage._curve.get_segments())

@@ -38,6 +38,7 @@ def test_arrays_have_the_promised_shapes(membrane: cf.Result):
     for name, values in membrane.steps.items():
         assert values.shape == (membrane.stats["steps"],), name
         assert not values.flags.writeable
+        assert f"``{name}``" in str(cf.Result.steps.__doc__)
     assert membrane.steps["rejections_error"].sum() == membrane.stats["rejections_error"]
 
 

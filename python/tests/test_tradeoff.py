@@ -1,9 +1,12 @@
+import copy
 import os
+import pickle
 import signal
 import subprocess
 import sys
 import threading
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -89,6 +92,80 @@ def test_the_figure_has_both_times(measured: cf.Tradeoff):
         assert [line.get_label() for line in axes.lines] == list(measured.errors)
         assert [text.get_text() for text in axes.texts] == ["0.01", "0.001", "1e-05"]
     figure.draw_without_rendering()
+
+
+@pytest.mark.parametrize("tolerances", [[1e-3, 1e-5], [1e-3]])
+def test_the_figure_shows_every_run_at_both_times(tolerances: list[float]):
+    measured = cf.tradeoff(cf.Scene.shipped("three_fold").with_values({"accuracy.nodes": 512}), tolerances)
+    figure = measured.plot(Figure(figsize=(11, 5), layout="constrained"))
+    figure.draw_without_rendering()
+    assert [axes.get_title()[:8] for axes in figure.axes] == ["half of ", "at rest,"]
+    for time, axes in enumerate(figure.axes):
+        (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+        worst = max(errors[time].max() for errors in measured.errors.values())
+        assert bottom < worst < top
+        assert left < measured.seconds.min() <= measured.seconds.max() < right
+        frame = axes.get_window_extent()
+        for text in axes.texts:
+            box = text.get_window_extent()
+            assert frame.x0 < box.x0 and box.x1 < frame.x1 and frame.y0 < box.y0 and box.y1 < frame.y1
+        labels = [label for label in axes.get_xticklabels() + axes.get_xticklabels(minor=True) if label.get_text()]
+        shown = [label for label in labels if left <= label.get_position()[0] <= right]
+        boxes = sorted((label.get_window_extent() for label in shown), key=lambda box: box.x0)
+        assert len(boxes) >= 2
+        assert all(box.x1 < following.x0 for box, following in zip(boxes, boxes[1:], strict=False))
+
+
+def test_what_the_flow_keeps_has_no_key(circle: cf.Scene):
+    measured = cf.tradeoff(circle, [1e-3, 1e-4])
+    zero = {name for name, errors in measured.errors.items() if not (errors > 0).any()}
+    legend = measured.plot(Figure()).axes[0].get_legend()
+    assert legend is not None
+    assert {text.get_text() for text in legend.get_texts()} == set(measured.errors) - zero
+
+
+def test_ladders_can_be_kept(measured: cf.Tradeoff, circle: cf.Scene):
+    def interrupt(name: str, tolerance: float, number: int, count: int) -> None:
+        if number == 2:
+            signal.raise_signal(signal.SIGINT)
+
+    native = _curveflow.tradeoff(circle._native, [1e-2, 1e-3, 1e-4], None, interrupt, None, 0.0)
+    for ladder in (measured, cf.Tradeoff(native)):
+        assert ladder.error.shape == (3,)
+        for again in (pickle.loads(pickle.dumps(ladder)), copy.copy(ladder), copy.deepcopy(ladder)):
+            assert repr(again) == repr(ladder)
+            for name in ("tolerance", "error", "nodes", "steps", "seconds"):
+                np.testing.assert_array_equal(getattr(again, name), getattr(ladder, name))
+                assert not getattr(again, name).flags.writeable
+            assert list(again.errors) == list(ladder.errors)
+            for name, errors in ladder.errors.items():
+                np.testing.assert_array_equal(again.errors[name], errors)
+            for name in ("title", "times", "ending", "reference", "includes_space", "interrupted", "failures"):
+                assert getattr(again, name) == getattr(ladder, name), name
+            assert again.cheapest(1e-2) == ladder.cheapest(1e-2)
+    assert cf.Tradeoff(native).failures[1:] == ["interrupted before the run was complete"] * 2
+
+
+def test_parts_of_no_ladder_are_refused(measured: cf.Tradeoff):
+    parts = list(measured._native.__getnewargs__())
+    assert _curveflow.Tradeoff(*parts).title == measured.title
+    with pytest.raises(ValueError, match='no ladder ends at "never"'):
+        _curveflow.Tradeoff(*parts[:2], (0.5, 1.0, "never"), *parts[3:])
+    with pytest.raises(ValueError, match="1 errors: a run has 4, and one per density"):
+        _curveflow.Tradeoff(*parts[:4], [(1e-3, 32, 9, 1.0, [[0.1], [0.1]])], *parts[5:])
+
+
+def test_the_figure_of_the_command_can_be_written(measured: cf.Tradeoff, tmp_path: Path):
+    path = tmp_path / "ladder.png"
+    measured.picture(path)
+    assert path.read_bytes().startswith(b"\x89PNG")
+    with pytest.raises(cf.StorageError, match=r"ladder\.png: already exists"):
+        measured.picture(path)
+    pickle.loads(pickle.dumps(measured)).picture(path, replace=True)
+    measured.picture(tmp_path / "ladder.svg")
+    assert "Three-fold protein membrane" in (tmp_path / "ladder.svg").read_text(encoding="utf-8")
+    with pytest.raises(cf.StorageError, match=r"ends in \.png or \.svg"):
+        measured.picture(tmp_path / "ladder.pdf")
 
 
 def test_progress_names_the_run(circle: cf.Scene, monkeypatch: pytest.MonkeyPatch):

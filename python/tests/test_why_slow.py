@@ -1,3 +1,4 @@
+import inspect
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -22,6 +23,11 @@ def test_shares_add_up_and_name_every_term(membrane: cf.Result):
         assert membrane.stats[f"seconds_{name}"] == seconds
     stats = membrane.stats
     assert why.krylov_iterations_per_solve == stats["krylov_iterations"] / stats["newton_iterations"]
+
+
+def test_the_docstring_says_what_every_second_was_spent_on(membrane: cf.Result):
+    text = inspect.getsource(cf.WhySlow)
+    assert all(f"``{name}``" in text for name in membrane.why_slow().seconds)
 
 
 def test_it_prints_as_the_sentence_and_the_tables(membrane: cf.Result):

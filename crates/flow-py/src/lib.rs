@@ -14,6 +14,7 @@ mod scene;
 mod simulation;
 mod system;
 mod tradeoff;
+mod tradeoff_parts;
 mod watcher;
 
 /// The extension module.

@@ -1,7 +1,9 @@
-//! Ladders of tolerances: measurements in, arrays out.
+//! Ladders of tolerances: measurements in, arrays and a figure out.
 
+use std::path::PathBuf;
 use std::time::Duration;
 
+use flow_core::output::picture::{Options, PictureError, plot_tradeoff};
 use flow_core::run::tradeoff as core;
 use pyo3::exceptions::{PyKeyError, PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
@@ -9,12 +11,36 @@ use pyo3::prelude::*;
 use crate::arrays::{Table, Vector, table, vector};
 use crate::error::{detached, raised};
 use crate::scene::Scene;
+use crate::tradeoff_parts::{self as parts, ReferenceParts, RungParts, SpanParts};
 use crate::watcher::{LadderWatcher, Watcher};
 
 /// A measured ladder.
 #[pyclass(frozen, module = "curveflow._curveflow")]
 pub struct Tradeoff {
+    /// With the rows alone that were measured: an error does not travel between processes, what it says does.
     core: core::Tradeoff,
+    /// Tolerance of every run, and why it has no result.
+    runs: Vec<(f64, Option<String>)>,
+    interrupted: bool,
+}
+
+impl From<core::Tradeoff> for Tradeoff {
+    fn from(mut core: core::Tradeoff) -> Self {
+        let failure = |row: &core::Row| row.outcome.as_ref().err().map(ToString::to_string);
+        let runs = core.rows.iter().map(|row| (row.tolerance, failure(row))).collect();
+        let interrupted = core.is_interrupted();
+        core.rows.retain(|row| row.outcome.is_ok());
+        Self { core, runs, interrupted }
+    }
+}
+
+impl Tradeoff {
+    /// A value per run; `missing` for a run that failed.
+    fn per_run<T: Copy>(&self, missing: T, value: impl Fn(&core::Rung) -> T) -> Vec<T> {
+        let mut measured = self.core.rungs();
+        let mut next = || measured.next().map_or(missing, |(_, rung)| value(rung));
+        self.runs.iter().map(|(_, failure)| if failure.is_none() { next() } else { missing }).collect()
+    }
 }
 
 /// Measures a ladder of tolerances, the default one if there are none; watched like a run. `before_run` is called before every
@@ -41,13 +67,42 @@ pub fn tradeoff(
     });
     match (watcher.raised(py), measured?) {
         (Some(raised), _) => Err(raised),
-        (None, Some(core)) => Ok(Tradeoff { core }),
+        (None, Some(core)) => Ok(core.into()),
         (None, None) => Err(PyKeyboardInterrupt::new_err(core::TradeoffError::Interrupted.to_string())),
     }
 }
 
 #[pymethods]
 impl Tradeoff {
+    /// The ladder whose `__getnewargs__` these are.
+    #[new]
+    fn of_parts(
+        title: String,
+        densities: Vec<String>,
+        span: SpanParts,
+        reference: ReferenceParts,
+        rungs: Vec<RungParts>,
+        runs: Vec<(f64, Option<String>)>,
+        interrupted: bool,
+    ) -> PyResult<Self> {
+        let (span, reference) = (parts::span(span)?, parts::reference(reference));
+        let rows = rungs.into_iter().map(parts::row).collect::<PyResult<_>>()?;
+        let core = core::Tradeoff { title, densities, span, reference, rows };
+        Ok(Self { core, runs, interrupted })
+    }
+
+    /// All of it as numbers and texts: what pickles hold.
+    #[allow(clippy::type_complexity)] // written once
+    fn __getnewargs__(
+        &self,
+    ) -> (&str, Vec<String>, SpanParts, ReferenceParts, Vec<RungParts>, Vec<(f64, Option<String>)>, bool)
+    {
+        let core::Tradeoff { title, densities, span, reference, .. } = &self.core;
+        let (span, reference) = (parts::of_span(*span), parts::of_reference(*reference));
+        let rungs = self.core.rungs().map(parts::of_rung).collect();
+        (title, densities.clone(), span, reference, rungs, self.runs.clone(), self.interrupted)
+    }
+
     /// Title of the scene.
     #[getter]
     fn title(&self) -> &str {
@@ -63,16 +118,14 @@ impl Tradeoff {
 
     /// Times of comparison, and why the runs end at the second.
     #[getter]
-    fn span(&self) -> (f64, f64, &'static str) {
-        let span = self.core.span;
-        (span.halfway, span.end, span.ending.name())
+    fn span(&self) -> SpanParts {
+        parts::of_span(self.core.span)
     }
 
     /// Tolerance of the reference, whether rounding limits it, its nodes, steps and seconds.
     #[getter]
-    fn reference(&self) -> (f64, bool, usize, u64, f64) {
-        let reference = self.core.reference;
-        (reference.tolerance, reference.at_rounding, reference.nodes, reference.steps, reference.seconds)
+    fn reference(&self) -> ReferenceParts {
+        parts::of_reference(self.core.reference)
     }
 
     /// Whether the errors hold those of the nodes.
@@ -84,19 +137,19 @@ impl Tradeoff {
     /// Whether the ladder was interrupted.
     #[getter]
     fn interrupted(&self) -> bool {
-        self.core.is_interrupted()
+        self.interrupted
     }
 
     /// Why each run has no result; none where it has one.
     #[getter]
-    fn failures(&self) -> Vec<Option<String>> {
-        self.core.rows.iter().map(|row| row.outcome.as_ref().err().map(ToString::to_string)).collect()
+    fn failures(&self) -> Vec<Option<&str>> {
+        self.runs.iter().map(|(_, failure)| failure.as_deref()).collect()
     }
 
     /// Index of the quickest run with at most this error.
     fn cheapest(&self, error: f64) -> Option<usize> {
         let (tolerance, _) = self.core.cheapest(error)?;
-        self.core.rows.iter().position(|row| row.tolerance == tolerance)
+        self.runs.iter().position(|(asked, _)| *asked == tolerance)
     }
 
     /// A value per run, by its name; NaN for a run that failed.
@@ -105,12 +158,11 @@ impl Tradeoff {
             "error" => core::Rung::largest_error,
             "seconds" => |rung| rung.seconds,
             "tolerance" => {
-                return Ok(vector(py, self.core.rows.iter().map(|row| row.tolerance).collect()));
+                return Ok(vector(py, self.runs.iter().map(|(tolerance, _)| *tolerance).collect()));
             }
             _ => return Err(PyKeyError::new_err(name.to_owned())),
         };
-        let row = |row: &core::Row| row.outcome.as_ref().map_or(f64::NAN, value);
-        Ok(vector(py, self.core.rows.iter().map(row).collect()))
+        Ok(vector(py, self.per_run(f64::NAN, value)))
     }
 
     /// A count per run, by its name; 0 for a run that failed.
@@ -120,21 +172,19 @@ impl Tradeoff {
             "steps" => |rung| rung.steps,
             _ => return Err(PyKeyError::new_err(name.to_owned())),
         };
-        let row = |row: &core::Row| row.outcome.as_ref().map_or(0, count);
-        Ok(vector(py, self.core.rows.iter().map(row).collect()))
+        Ok(vector(py, self.per_run(0, count)))
     }
 
     /// The error of this number in `names`, halfway and at the end, per run; NaN for a run that failed.
     fn errors<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Table<'py>> {
-        let rows = &self.core.rows;
-        let mut values = Vec::with_capacity(2 * rows.len());
-        for at in 0..2 {
-            for row in rows {
-                let errors = row.outcome.as_ref().ok().map(|rung| &rung.errors[at]);
-                let error = errors.and_then(|errors| errors.named(&self.core.densities).nth(number));
-                values.push(error.map_or(f64::NAN, |(_, error)| error));
-            }
-        }
-        table(py, values, 2, rows.len())
+        let error = |errors: &core::Errors| parts::values(errors).get(number).copied().unwrap_or(f64::NAN);
+        let both = [0, 1].map(|at| self.per_run(f64::NAN, |rung| error(&rung.errors[at])));
+        table(py, both.concat(), 2, self.runs.len())
+    }
+
+    /// Draws the figure of `curveflow tradeoff` into a PNG or SVG file.
+    fn picture(&self, py: Python<'_>, path: PathBuf, replace: bool) -> PyResult<()> {
+        let options = Options { replace, ..Options::default() };
+        detached::<_, PictureError>(py, || plot_tradeoff(&self.core, &path, &options))
     }
 }
