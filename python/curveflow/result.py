@@ -52,6 +52,14 @@ class Result(Frames):
         """One sentence on why the run stopped."""
         return self._record.message
 
+    @cached_property
+    def warnings(self) -> tuple[str, ...]:
+        """What makes the result doubtful although the run came to its end, a sentence each; empty if there is nothing.
+
+        Nodes that did not resolve most of the steps, or energy that was neither kept nor dissipated.
+        """
+        return tuple(self._record.warnings)
+
     @property
     def title(self) -> str:
         """Title of the scene."""

@@ -181,3 +181,10 @@ def test_h5py_and_xarray_read_saved_results(membrane: cf.Result, tmp_path: Path)
         assert list(data.component.values) == ["x", "y"]
     with xarray.open_dataset(path, engine="h5netcdf", group="density") as data:
         assert data.protein.shape == membrane.density["protein"].shape
+
+
+def test_a_doubtful_result_says_so(membrane: cf.Result):
+    assert membrane.warnings == ()
+    few = cf.run(cf.Scene.shipped("three_fold").with_values({"accuracy.nodes": 64, "time.end": 1e-3}))
+    assert few.success
+    assert any("were not resolved by their nodes" in told for told in few.warnings)

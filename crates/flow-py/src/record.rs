@@ -71,6 +71,12 @@ impl Record {
         self.core.stop_reason.message()
     }
 
+    /// What makes the result doubtful.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        core::warnings(&self.core)
+    }
+
     /// Names of the energy terms.
     #[getter]
     fn energy_terms(&self) -> Vec<&str> {

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use flow_core::output::checkpoint::{Pair, Saving, run_saving};
 use flow_core::output::hdf5_file;
-use flow_core::run::{Record, Simulation, StopReason};
+use flow_core::run::{Record, Simulation, StopReason, warnings};
 
 use super::info;
 use crate::error::CliError;
@@ -56,8 +56,8 @@ impl Conduct {
             print::data(&info::json(&record))?;
         } else if !self.quiet {
             print::talk(&closing_line(&record, seconds));
-            if let Some(warning) = coarse(&record) {
-                print::talk(&warning);
+            for warning in warnings(&record) {
+                print::talk(&format!("warning: {warning}"));
             }
             print::data(&output.display().to_string())?;
         }
@@ -73,17 +73,6 @@ fn outcome(record: Record, output: &Path) -> Result<(), CliError> {
         StopReason::Interrupted => Err(CliError::Stopped { time, output }),
         StopReason::Failed(message) => Err(CliError::Numerical { message, output }),
     }
-}
-
-/// What to say of a run most of which its nodes did not resolve.
-fn coarse(record: &Record) -> Option<String> {
-    let (unresolved, steps) = (record.counters.unresolved_steps, record.counters.steps);
-    (2 * unresolved > steps).then(|| {
-        format!(
-            "warning: {unresolved} of the {steps} steps were not resolved by their nodes, and the result depends on these: take more \
-             of them, or accuracy.nodes = \"auto\""
-        )
-    })
 }
 
 fn closing_line(record: &Record, seconds: f64) -> String {

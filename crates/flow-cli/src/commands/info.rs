@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use flow_core::output::hdf5_file;
-use flow_core::run::{Provenance, Record, Rejections, Share, StopReason, WhySlow};
+use flow_core::run::{Provenance, Record, Rejections, Share, StopReason, WhySlow, warnings};
 use serde_json::{Map, Value, json};
 
 use crate::error::CliError;
@@ -64,6 +64,10 @@ fn summary(record: &Record) -> Vec<(String, Value)> {
     row("stop_reason", json!(record.stop_reason.name()));
     if let StopReason::Failed(message) = &record.stop_reason {
         row("message", json!(message));
+    }
+    let doubts = warnings(record);
+    if !doubts.is_empty() {
+        row("warnings", json!(doubts));
     }
     row("frames", json!(record.frames.len()));
     row("nodes", json!(record.nodes()));

@@ -32,6 +32,7 @@ mod setup_error;
 mod simulation;
 mod term_parts;
 pub mod tradeoff;
+mod warnings;
 mod why_slow;
 
 pub use crate::integrator::{Counters, Rejections};
@@ -52,4 +53,5 @@ pub use seconds::{EvaluationSeconds, Seconds};
 pub use setup::Setup;
 pub use setup_error::SetupError;
 pub use simulation::{ENERGY_TOLERANCE_SHARE, Memory, ResumeError, Simulation, run};
+pub use warnings::warnings;
 pub use why_slow::{Limit, Share, WhySlow};

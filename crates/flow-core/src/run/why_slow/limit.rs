@@ -36,6 +36,8 @@ const MOST: f64 = 0.5;
 const REJECTED: f64 = 0.1;
 /// Frames that a file costs more than.
 const FEW_FRAMES: usize = 20;
+/// Equidistant nodes beyond which nodes that follow the solution are quicker.
+const MANY_NODES: usize = 2048;
 /// Krylov iterations of a solve; 1 to 4 are usual.
 const MANY_ITERATIONS: f64 = 8.0;
 
@@ -190,6 +192,9 @@ fn easier_solves(record: &Record) -> &'static str {
         (_, LinearSolver::Fourier) => "accuracy.linear_solver = \"auto\"",
         (_, LinearSolver::Auto | LinearSolver::Banded) if positions && record.nodes() <= 128 => {
             "accuracy.linear_solver = \"dense\": only it knows the terms that act on positions"
+        }
+        (MetricRole::Uniform, _) if record.nodes() > MANY_NODES => {
+            "flow.gauge = \"graded\": nodes crowd where the solution is sharp then, and far fewer do"
         }
         _ => smaller,
     }

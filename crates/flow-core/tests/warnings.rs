@@ -1,0 +1,49 @@
+//! What is said of runs that came to their end and are doubtful all the same.
+
+use flow_core::run::{Quiet, Scene, run, warnings};
+
+fn shipped(name: &str, changes: &[(&str, &str)]) -> Scene {
+    let (_, text) = Scene::shipped().iter().find(|(shipped, _)| *shipped == name).expect("shipped");
+    let changes: Vec<_> = changes.iter().map(|(key, value)| ((*key).into(), (*value).into())).collect();
+    Scene::parse_with(text, name, &changes).expect("valid")
+}
+
+#[test]
+fn good_runs_are_not_doubted() {
+    for (name, _) in Scene::shipped() {
+        for tolerance in ["1e-2", "1e-4"] {
+            let record =
+                run(&shipped(name, &[("accuracy.tolerance", tolerance)]), &mut Quiet).expect("a state");
+            assert!(warnings(&record).is_empty(), "{name} at {tolerance}: {:?}", warnings(&record));
+        }
+    }
+}
+
+#[test]
+fn energy_that_was_neither_kept_nor_dissipated_is_told() {
+    let mut record = run(&shipped("circle", &[("accuracy.tolerance", "1e-4")]), &mut Quiet).expect("a state");
+    let energy = record.frames[0].energy;
+    let last = record.frames.last_mut().expect("a frame");
+    last.remap_error = 0.1 * energy;
+    last.energy_balance = last.remap_error + 1e-3 * energy;
+    let told = warnings(&record);
+    assert!(matches!(&told[..], [one] if one.contains("apart by 1.0e-3 of the energy")), "{told:?}");
+}
+
+/// Steps that are each in balance, and a curve that wrinkles all the same.
+#[test]
+fn a_run_that_loses_its_balance_bit_by_bit_is_told() {
+    let text = "
+        curve = { shape = 'figure-eight', size = 0.5 }
+        density = [{ name = 'a', initial = 0.92, mobility = 'exchange' }]
+        energy.agents = { density = 'a', epsilon = 0.02, delta = 0.13, preferred_curvature = '0.13 - 2*(rho - 0.2)', \
+                          low_density = 0.15, high_density = 0.9 }
+        time = { end = 0.0167, stop_at_equilibrium = false }
+        accuracy.tolerance = 3e-4
+        ";
+    let record = run(&Scene::parse(text, "eight").expect("valid"), &mut Quiet).expect("a state");
+    assert!(warnings(&record).iter().any(|told| told.contains("take a smaller tolerance")));
+    let tighter = run(&Scene::parse(&text.replace("3e-4", "1e-5"), "eight").expect("valid"), &mut Quiet)
+        .expect("a state");
+    assert!(warnings(&tighter).is_empty());
+}
