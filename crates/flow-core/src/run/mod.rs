@@ -27,6 +27,7 @@ mod schedule;
 mod seconds;
 mod setup;
 mod setup_error;
+mod shape;
 mod simulation;
 mod term_parts;
 pub mod tradeoff;

@@ -41,6 +41,7 @@ const POWER: f64 = 0.13;
 /// # Errors
 /// [`SetupError`] if the scene makes no initial state.
 pub fn predict(scene: &Scene) -> Result<Prediction, SetupError> {
+    let scene = &scene.clone().checked()?;
     let mut simulation = Simulation::new(scene)?;
     let layout = simulation.layout();
     while simulation.counters().steps < TRIAL_STEPS && simulation.step(&mut Quiet) {}
