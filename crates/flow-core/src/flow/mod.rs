@@ -11,6 +11,7 @@ mod gradient_flow;
 mod moving_metric_energy;
 mod nodal;
 mod nodal_curve;
+mod nodal_error;
 mod normal_mobility;
 mod preconditioner;
 mod regrade;
@@ -27,6 +28,7 @@ pub use gauge::{CoMoving, Gauge, Graded, MetricRole, ScaledArcLength, Workspace}
 pub use gradient_flow::{EvaluationCost, GradientFlow, PartCosts, Rate};
 pub use nodal_curve::{NodalCurve, NodalError, NodalRates};
 pub(crate) use nodal_curve::{check, nodal_state};
+pub use nodal_error::NodalError;
 pub use normal_mobility::{
     AreaPreserving, Identity, Incompressible, IncompressibleAreaPreserving, Kept, MobilityError,
     NormalMobility, SurfaceDiffusion,

@@ -24,6 +24,9 @@ pub struct Grading {
 }
 
 impl Grading {
+    /// Fewest nodes that may be graded.
+    pub const FEWEST_NODES: usize = 2;
+
     /// Number of samples for `nodes` nodes, at s = i/(2 `nodes`).
     #[must_use]
     pub fn samples(nodes: usize) -> usize {
@@ -33,10 +36,12 @@ impl Grading {
     /// The grading with the values `samples` at s = i/(2n), an even number of them, normalised to mean 1 over the nodes.
     ///
     /// # Errors
-    /// [`GradingError`] if a value is not positive, or n nodes do not resolve them.
+    /// [`GradingError`] if their number is odd or less than 4, a value is not positive, or n nodes do not resolve them.
     pub fn new(samples: &[f64]) -> Result<Self, GradingError> {
         let nodes = samples.len() / 2;
-        assert!(nodes >= 2 && samples.len() == 2 * nodes, "two samples for each of at least two nodes");
+        if nodes < Self::FEWEST_NODES || samples.len() != Self::samples(nodes) {
+            return Err(GradingError::Samples { samples: samples.len() });
+        }
         // In units of a power of two near the largest, which is exact, so that no sum overflows.
         let largest = samples.iter().copied().filter(|value| value.is_finite()).fold(0.0, f64::max);
         let unit = largest.log2().floor().min(1023.0).exp2();
@@ -55,8 +60,7 @@ impl Grading {
         let mut grid = PeriodicGrid::new(nodes);
         let (mut spectrum, mut shift) = (vec![Complex64::default(); grid.modes()], vec![0.0; nodes]);
         grid.transform(&weight, &mut spectrum);
-        let half: Vec<Complex64> =
-            spectrum.iter().enumerate().map(|(j, w)| w * half_step(&grid, j)).collect();
+        let half: Vec<Complex64> = spectrum.iter().enumerate().map(|(j, w)| w * grid.half_step(j)).collect();
         grid.synthesise(&half, &mut shift);
         for (i, (interpolated, value)) in shift.iter().zip(&at_midpoints).enumerate() {
             let error = (interpolated / value - 1.0).abs();
@@ -245,14 +249,6 @@ impl Grading {
             multiply(field, &self.weight);
         }
     }
-}
-
-/// Symbol of the shift by half a node distance; the sawtooth vanishes between the nodes.
-pub(super) fn half_step(grid: &PeriodicGrid, mode: usize) -> Complex64 {
-    if Some(mode) == grid.sawtooth_mode() {
-        return Complex64::default();
-    }
-    Complex64::cis(0.5 * grid.wave_number(mode) / grid.nodes() as f64)
 }
 
 #[cfg(test)]

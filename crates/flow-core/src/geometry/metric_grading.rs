@@ -1,6 +1,6 @@
 //! The grading of a curve whose metric is known at its nodes. See `THEORY.md`, eq. (D8).
 
-use super::grading::{Grading, half_step};
+use super::grading::Grading;
 use super::grading_error::GradingError;
 use super::grid::{Complex64, PeriodicGrid};
 
@@ -8,13 +8,17 @@ impl Grading {
     /// The grading w = g/⟨g⟩ of the nodal `metric` g, at the midpoints by trigonometric interpolation.
     ///
     /// # Errors
-    /// [`GradingError::NotPositive`] if the metric, or its interpolant between two nodes, is not positive.
+    /// [`GradingError::NotPositive`] if the metric, or its interpolant between two nodes, is not positive; [`GradingError::Samples`]
+    /// if there are fewer than two nodes.
     pub fn of_metric(metric: &[f64]) -> Result<Self, GradingError> {
         let nodes = metric.len();
+        if nodes < Self::FEWEST_NODES {
+            return Err(GradingError::Samples { samples: Self::samples(nodes) });
+        }
         let mut grid = PeriodicGrid::new(nodes);
         let mut spectrum = vec![Complex64::default(); grid.modes()];
         grid.transform(metric, &mut spectrum);
-        spectrum.iter_mut().enumerate().for_each(|(mode, value)| *value *= half_step(&grid, mode));
+        spectrum.iter_mut().enumerate().for_each(|(mode, value)| *value *= grid.half_step(mode));
         let mut midpoints = vec![0.0; nodes];
         grid.synthesise(&spectrum, &mut midpoints);
         let samples: Vec<f64> =
@@ -45,5 +49,17 @@ mod tests {
         let mut metric = vec![1.0; 32];
         metric[3] = -1.0;
         assert!(matches!(Grading::of_metric(&metric), Err(GradingError::NotPositive { .. })));
+    }
+
+    #[test]
+    fn other_numbers_of_samples_are_refused() {
+        for nodes in [0, 1] {
+            let error = Grading::of_metric(&vec![1.0; nodes]);
+            assert_eq!(error, Err(GradingError::Samples { samples: 2 * nodes }));
+        }
+        for samples in [0, 1, 2, 3, 5, 65] {
+            assert_eq!(Grading::new(&vec![1.0; samples]), Err(GradingError::Samples { samples }));
+        }
+        assert!(Grading::new(&[1.0; 4]).is_ok());
     }
 }

@@ -120,6 +120,9 @@ impl Derivative {
     ///
     /// The Fourier derivative to graded nodes goes to the midpoints and sees the sawtooth: at the nodes D₊ᵀ(1/w)D₊ would
     /// lose it.
+    ///
+    /// # Panics
+    /// If the grading has another number of nodes.
     #[must_use]
     pub fn graded(family: DerivativeFamily, grid: &PeriodicGrid, grading: Option<Arc<Grading>>) -> Self {
         let midpoints = grading.is_some();
@@ -128,6 +131,9 @@ impl Derivative {
 
     /// The same with the midpoints for flux points, whatever the family: for energies of slopes, which at the nodes cost the sawtooth
     /// nothing.
+    ///
+    /// # Panics
+    /// If the grading has another number of nodes.
     #[must_use]
     pub fn staggered(family: DerivativeFamily, grid: &PeriodicGrid, grading: Option<Arc<Grading>>) -> Self {
         Self::build(family, grid, grading, true)
@@ -139,6 +145,8 @@ impl Derivative {
         grading: Option<Arc<Grading>>,
         midpoints: bool,
     ) -> Self {
+        let fits = grading.as_ref().is_none_or(|grading| grading.nodes() == grid.nodes());
+        assert!(fits, "a grading of other nodes than the {} of the grid", grid.nodes());
         let to_flux: Vec<_> =
             (0..grid.modes()).map(|mode| Self::flux_symbol(family, midpoints, grid, mode)).collect();
         let inverse_to_flux = to_flux
