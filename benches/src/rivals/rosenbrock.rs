@@ -36,6 +36,9 @@ pub struct Rosenbrock {
 
 impl Rosenbrock {
     /// For states of `size` entries.
+    ///
+    /// # Panics
+    /// If the matrix of the tableau is singular, which that of no published method is.
     #[must_use]
     pub fn new(tableau: &'static RosenbrockTableau, size: usize) -> Self {
         let stages = tableau.b.len();

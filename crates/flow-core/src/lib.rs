@@ -69,6 +69,8 @@
 //! Data flows one way: [`geometry`] → [`operators`] → [`energies`] → [`flow`] → [`integrator`] → [`run`] → [`output`]. The kernels take
 //! `f64` slices and allocate nothing after the first step; no code here is `unsafe`.
 
+#![warn(unnameable_types)] // what others may hold they may name
+
 pub mod energies;
 pub mod expression;
 pub mod flow;

@@ -65,7 +65,9 @@ const GAUGES: [&str; 3] = [
 /// Local terms of every kind; functions of the length and of the positions are not local.
 #[test]
 fn the_energy_density_integrates_to_the_local_terms() {
-    GAUGES.iter().for_each(|gauge| assert_density_integrates(gauge));
+    for gauge in GAUGES {
+        assert_density_integrates(gauge);
+    }
 }
 
 fn assert_density_integrates(gauge: &str) {

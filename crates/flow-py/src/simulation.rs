@@ -129,10 +129,9 @@ impl Simulation {
 
     /// Writes a checkpoint.
     fn checkpoint(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        let mut guard = self.lock()?;
-        let (path, simulation) = (&path, &mut *guard);
-        // Moved: a simulation may change threads, but not be shared by two.
-        detached(py, move || atomic_file::write(path, &checkpoint::encode(simulation), true))
+        let guard = self.lock()?;
+        let simulation = &*guard;
+        detached(py, || atomic_file::write(&path, &checkpoint::encode(simulation), true))
     }
 }
 

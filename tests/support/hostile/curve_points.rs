@@ -10,6 +10,9 @@ const MOST: usize = 2048;
 const NODES: usize = 32;
 
 /// Reads points and lays a curve through them.
+///
+/// # Panics
+/// If a curve comes of it that is none.
 pub fn curve_points(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     match parse_points(&text) {

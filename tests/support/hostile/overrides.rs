@@ -16,6 +16,9 @@ mobility = 'diffusion'
 ";
 
 /// Applies each line, `key=value`, to a small scene.
+///
+/// # Panics
+/// If the text of the scene that comes of it is another one.
 pub fn overrides(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     let changes: Vec<(String, String)> = text

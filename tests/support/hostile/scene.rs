@@ -5,6 +5,9 @@ use flow_core::run::Scene;
 use super::{check_message, short_run};
 
 /// Reads a scene; one that is valid is written out, read again and run for a few steps.
+///
+/// # Panics
+/// If it is another scene when it is read again.
 pub fn scene(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     match Scene::parse(&text, "scene.toml") {

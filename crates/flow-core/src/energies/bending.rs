@@ -48,12 +48,15 @@ impl Bending {
     ///
     /// # Errors
     /// [`ExpressionError`] if a derivative of c₀ is too large.
+    /// # Panics
+    /// If c₀ depends on a second variable.
     pub fn around_function(
         rigidity: f64,
         preferred: &Expression,
         density: usize,
         nodes: usize,
     ) -> Result<Self, ExpressionError> {
+        assert!(preferred.arity() <= 1, "`{}` is no function of one density", preferred.text());
         let first = preferred.derivative(0)?;
         let second = first.derivative(0)?;
         let program = Program::compile(&[preferred, &first, &second]);

@@ -9,9 +9,12 @@ pub struct Fields<'a> {
 
 impl<'a> Fields<'a> {
     /// Wraps `values`, whose length is a multiple of `nodes`.
+    ///
+    /// # Panics
+    /// If it is not, or `nodes` is 0.
     #[must_use]
     pub fn new(nodes: usize, values: &'a [f64]) -> Self {
-        assert_eq!(values.len() % nodes, 0, "whole fields");
+        assert!(nodes > 0 && values.len().is_multiple_of(nodes), "whole fields of one node at least");
         Self { nodes, values }
     }
 
@@ -28,8 +31,12 @@ impl<'a> Fields<'a> {
     }
 
     /// Field `field`.
+    ///
+    /// # Panics
+    /// If there is no such field.
     #[must_use]
     pub fn get(&self, field: usize) -> &'a [f64] {
+        assert!(field < self.count(), "field {field} of {}", self.count());
         &self.values[field * self.nodes..(field + 1) * self.nodes]
     }
 }

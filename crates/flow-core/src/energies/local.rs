@@ -25,8 +25,12 @@ impl Local {
     ///
     /// # Errors
     /// [`ExpressionError`] if a derivative is too large.
+    /// # Panics
+    /// If there are more than 8 fields, or the expression has more than 2 `fields` variables.
     pub fn new(expression: &Expression, fields: usize, nodes: usize) -> Result<Self, ExpressionError> {
         assert!(2 * fields <= MOST_VARIABLES, "at most {} fields", MOST_VARIABLES / 2);
+        let arity = expression.arity();
+        assert!(arity <= 2 * fields, "an energy of {arity} variables on {fields} fields and their slopes");
         let of_slopes = (fields..2 * fields).any(|variable| expression.depends_on(variable));
         let variables = if of_slopes { 2 * fields } else { fields };
         let first = (0..variables).map(|a| expression.derivative(a)).collect::<Result<Vec<_>, _>>()?;

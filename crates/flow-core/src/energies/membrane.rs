@@ -10,9 +10,13 @@ pub struct Membrane {
 }
 
 impl Membrane {
-    /// The penalty 1/ε > 0 on density `density` (counted from 0), in energy per length.
+    /// The penalty 1/ε > 0 on density `density` (counted from 0), in energy per length; states must have that density.
+    ///
+    /// # Panics
+    /// If ε is not positive.
     #[must_use]
     pub fn new(density: usize, epsilon: f64) -> Self {
+        assert!(epsilon > 0.0, "a membrane of compressibility {epsilon:?}: it must be positive");
         Self { field: 1 + density, by_epsilon: 1.0 / epsilon }
     }
 }
@@ -37,5 +41,22 @@ impl EnergyTerm for Membrane {
         if order >= Order::Hessian {
             jet.second_mut(self.field, self.field).iter_mut().for_each(|second| *second += by_epsilon);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    #[should_panic(expected = "it must be positive")]
+    fn a_membrane_without_compressibility_is_refused() {
+        let _ = Membrane::new(0, 0.0);
+    }
+
+    #[test]
+    #[should_panic(expected = "field 3 of 2")]
+    fn a_density_that_no_state_has_is_named() {
+        Membrane::new(2, 0.1).add_density(Fields::new(4, &[1.0; 8]), &mut Jet::new(4, 4));
     }
 }

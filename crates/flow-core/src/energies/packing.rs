@@ -17,9 +17,13 @@ pub struct Packing {
 impl Packing {
     /// The penalty with the symmetric positive definite `matrix` P (rows of one entry per density) and ε > 0, for
     /// `nodes` nodes.
+    ///
+    /// # Panics
+    /// If P is not square, or ε not positive.
     #[must_use]
     pub fn new(matrix: &[Vec<f64>], epsilon: f64, nodes: usize) -> Self {
         let densities = matrix.len();
+        assert!(epsilon > 0.0, "a packing of width {epsilon:?}: it must be positive");
         assert!(matrix.iter().all(|row| row.len() == densities), "P is square");
         Self {
             densities,

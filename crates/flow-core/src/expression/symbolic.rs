@@ -35,9 +35,13 @@ impl Expression {
     /// Its [`text`](Self::text) is `d(…)/d(name)` around the text of `self`.
     /// # Errors
     /// [`ExpressionError::TooManyTerms`] if the derivative grows beyond bounds.
+    /// # Panics
+    /// If there is no such variable; a constant is one of any variables.
     pub fn derivative(&self, variable: usize) -> Result<Self, ExpressionError> {
-        let nodes = differentiate(&self.nodes, variable)?;
         let name = self.variables.get(variable).map_or("?", String::as_str);
+        let known = self.variables.is_empty() || variable < self.variables.len();
+        assert!(known, "variable {variable} of `{}`, which has {}", self.text, self.variables.len());
+        let nodes = differentiate(&self.nodes, variable)?;
         let text = format!("d({})/d({name})", self.text);
         Ok(Self { text, variables: self.variables.clone(), nodes })
     }
@@ -46,6 +50,13 @@ impl Expression {
     #[must_use]
     pub fn depends_on(&self, variable: usize) -> bool {
         self.nodes.iter().any(|node| matches!(node, Node::Variable(index) if *index == variable))
+    }
+
+    /// How many variables need values: one more than the last that occurs, none for a constant.
+    #[must_use]
+    pub fn arity(&self) -> usize {
+        let needed = |node: &Node| if let Node::Variable(index) = node { index + 1 } else { 0 };
+        self.nodes.iter().map(needed).max().unwrap_or(0)
     }
 
     /// The text the expression was read from.
@@ -57,6 +68,8 @@ impl Expression {
     /// The value where the variables have the given `values`: the reference for [`Program`](super::Program).
     /// # Shapes
     /// `values`: one value per variable, in the order given to [`parse`](Self::parse).
+    /// # Panics
+    /// If there are fewer values than [`arity`](Self::arity).
     #[must_use]
     pub fn evaluate(&self, values: &[f64]) -> f64 {
         let mut results = Vec::with_capacity(self.nodes.len());
@@ -101,5 +114,17 @@ mod tests {
         assert!(!slope.depends_on(0) && slope.depends_on(1));
         assert_eq!(Expression::constant(2.5).text(), "2.5");
         assert_eq!(Expression::constant(2.5).derivative(0).unwrap().evaluate(&[]), 0.0);
+    }
+
+    #[test]
+    fn the_arity_is_that_of_the_variables_that_occur() {
+        let of = |text| Expression::parse(text, &["x", "y", "z"]).unwrap().arity();
+        assert_eq!([of("2.0"), of("x + 1"), of("z*x"), of("y^2")], [0, 1, 3, 2]);
+    }
+
+    #[test]
+    #[should_panic(expected = "variable 7 of `x + y`, which has 2")]
+    fn there_is_no_derivative_by_what_is_no_variable() {
+        let _ = Expression::parse("x + y", &["x", "y"]).unwrap().derivative(7);
     }
 }

@@ -35,8 +35,8 @@ impl FlowMap {
     /// The flow map in `gauge`.
     ///
     /// # Panics
-    /// If the metric is a field of the gauge and none of `layout`, or the other way round, or if nodes are graded whose metric
-    /// is uniform.
+    /// If the metric is a field of the gauge and none of `layout`, or the other way round, if nodes are graded whose metric
+    /// is uniform, or if states and grid have different numbers of nodes.
     #[must_use]
     pub fn in_gauge(
         gauge: Arc<dyn Gauge>,
@@ -45,6 +45,7 @@ impl FlowMap {
         derivative: &Derivative,
     ) -> Self {
         let role = gauge.metric();
+        assert_eq!(layout.nodes(), grid.nodes(), "states and grid have as many nodes");
         assert_eq!(layout.metric().is_some(), role == MetricRole::Field, "the metric of {gauge:?}");
         assert!(derivative.grading().is_none() || role != MetricRole::Uniform, "graded nodes in {gauge:?}");
         assert!(derivative.grading().is_some() || role != MetricRole::Field, "no metric for {gauge:?}");

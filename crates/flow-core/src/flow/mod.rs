@@ -11,6 +11,7 @@ mod gradient_flow;
 mod moving_metric_energy;
 mod nodal;
 mod nodal_curve;
+mod nodal_error;
 mod normal_mobility;
 mod preconditioner;
 mod regrade;
@@ -20,17 +21,18 @@ mod slope_energy;
 
 pub use curve_fields::CurveFields;
 pub use density_mobility::{Carried, DensityMobility, Diffusion, Exchange, WeightedDiffusion};
-pub use energy_sum::{EnergySum, IntrinsicGradient};
+pub use energy_sum::{EnergySum, IntrinsicGradient, TermCost};
 pub use excess_density::ExcessDensity;
 pub use flow_map::FlowMap;
 pub use gauge::{CoMoving, Gauge, Graded, MetricRole, ScaledArcLength, Workspace};
 pub use gradient_flow::{EvaluationCost, GradientFlow, PartCosts, Rate};
-pub use nodal_curve::{NodalCurve, NodalError, NodalRates};
+pub use nodal_curve::{NodalCurve, NodalRates};
 pub(crate) use nodal_curve::{check, nodal_state};
+pub use nodal_error::NodalError;
 pub use normal_mobility::{
     AreaPreserving, Identity, Incompressible, IncompressibleAreaPreserving, Kept, MobilityError,
     NormalMobility, SurfaceDiffusion,
 };
-pub use preconditioner::{LinearSolver, Preconditioner, mobility_symbol};
+pub use preconditioner::{LinearSolver, Preconditioner, ResidualWeights, mobility_symbol};
 pub use regrade::{Regraded, Regrading, regrade};
 pub use scales::local_wave_numbers;

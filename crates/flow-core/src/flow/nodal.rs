@@ -47,6 +47,9 @@ impl GradientFlow {
     }
 
     /// Product of the frozen −𝓚 Hess `𝓕_h` with the nodal vector `v`.
+    ///
+    /// # Panics
+    /// Before [`GradientFlow::linearise`].
     pub fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
         let motion = self.encoded(v);
         let mut product = vec![0.0; motion.len()];
@@ -55,6 +58,9 @@ impl GradientFlow {
     }
 
     /// Product of the frozen Hess `𝓕_h` with the nodal vector `v`, dual to the state (see [`GradientFlow::gradient_at`]).
+    ///
+    /// # Panics
+    /// Before [`GradientFlow::linearise`].
     pub fn hessian_product(&mut self, v: &[f64], out: &mut [f64]) {
         let motion = self.encoded(v);
         self.spectral_hessian_product(&motion);
@@ -62,6 +68,9 @@ impl GradientFlow {
     }
 
     /// 𝓚 applied to the dual vector `dual`, at the frozen state.
+    ///
+    /// # Panics
+    /// Before [`GradientFlow::linearise`].
     pub fn apply_mobility(&mut self, dual: &[f64], out: &mut [f64]) {
         let dual = self.encoded(dual);
         let mut product = vec![0.0; dual.len()];

@@ -8,11 +8,10 @@ use std::sync::Arc;
 use super::curve_fields::CurveFields;
 use super::flow_map::FlowMap;
 use super::gauge::{Gauge, MetricRole};
+use super::nodal_error::NodalError;
 use super::normal_mobility::{Incompressible, MobilityError, NormalMobility};
 use crate::geometry::{Complex64, Grading, GradingError, Layout, PeriodicGrid, SpectralLayout};
-use crate::operators::{
-    CurveHelmholtz, Derivative, DerivativeFamily, FactorisationError, Helmholtz, HelmholtzError,
-};
+use crate::operators::{CurveHelmholtz, Derivative, DerivativeFamily, Helmholtz};
 
 impl MetricRole {
     /// The role that a nodal `metric` has in a gauge that keeps it but for its mean.
@@ -24,67 +23,6 @@ impl MetricRole {
 
 /// Spread of a metric, relative to its mean, that counts as none.
 const UNIFORM: f64 = 1e-10;
-
-/// The arrays are not those of a curve.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-#[allow(missing_docs)] // each message names its fields
-pub enum NodalError {
-    /// Arrays of different lengths.
-    #[error("`{field}` has {found} values, and `curvature` has {nodes}: all fields have one value per node")]
-    Length { field: &'static str, found: usize, nodes: usize },
-    /// Too few nodes.
-    #[error("`curvature` has {nodes} values; it takes {fewest} nodes at least")]
-    TooFewNodes { nodes: usize, fewest: usize },
-    /// A value is NaN or infinite.
-    #[error("`{field}` is {value} at node {node}: it must be finite")]
-    NotFinite { field: &'static str, node: usize, value: f64 },
-    /// The metric is no metric.
-    #[error(
-        "`metric` is {value:?} at s = {parameter:.6}: it must be positive, and not vanish beside its largest value"
-    )]
-    NotPositive { parameter: f64, value: f64 },
-    /// Sharper than the distance of the nodes.
-    #[error(
-        "`metric` is not resolved by its {nodes} nodes: interpolated from them to s = {parameter:.6} it is off by {error:.1e} of \
-         its value, and at most {bound:.0e} is allowed; give more nodes, or a smoother metric"
-    )]
-    NotResolved { nodes: usize, parameter: f64, error: f64, bound: f64 },
-    /// The nodes are not where the gauge has them.
-    #[error(
-        "`metric` varies by {spread:.1e} of its mean, and the gauge \"scaled-arc-length\" keeps it uniform: use gauge = \
-         \"graded\", which keeps the nodes at their fractions of the arc length, or \"co-moving\""
-    )]
-    NotUniform { spread: f64 },
-    /// H has no inverse.
-    #[error(
-        "`curvature` has |Γ|∫κ² dσ = {value:.3e}, which is 4π² or more on every closed curve, and finite: no closed curve has it"
-    )]
-    NoCurvature { value: f64 },
-    /// A pivot of H vanished.
-    #[error("`curvature` makes −Δ_s + κ² singular: {0}")]
-    Singular(FactorisationError),
-}
-
-impl From<GradingError> for NodalError {
-    fn from(error: GradingError) -> Self {
-        match error {
-            GradingError::NotPositive { parameter, value } => Self::NotPositive { parameter, value },
-            GradingError::NotResolved { nodes, parameter, error, bound } => {
-                Self::NotResolved { nodes, parameter, error, bound }
-            }
-        }
-    }
-}
-
-impl From<HelmholtzError> for NodalError {
-    fn from(error: HelmholtzError) -> Self {
-        match error {
-            HelmholtzError::NoCurvature { value } => Self::NoCurvature { value },
-            HelmholtzError::Singular(error) => Self::Singular(error),
-        }
-    }
-}
 
 /// Rates of the fields at fixed parameter under a normal velocity, one value per node.
 #[derive(Clone, Debug, PartialEq)]
@@ -146,7 +84,7 @@ impl NodalCurve {
     /// Rates under the normal velocity `v` (F2), (F19).
     ///
     /// # Errors
-    /// [`NodalError`] if `v` does not fit the curve.
+    /// [`NodalError`] if `v` does not fit the curve, or a rate overflows.
     pub fn flow_map(&mut self, v: &[f64]) -> Result<NodalRates, NodalError> {
         self.check_field("normal_velocity", v)?;
         let (nodes, spectral) = (self.layout.nodes(), SpectralLayout::new(self.layout));
@@ -168,14 +106,18 @@ impl NodalCurve {
             (0..nodes).map(|i| (per_parameter[i] - values[i] * metric[i]) / self.metric[i]).collect()
         });
         let curvature = pointwise.next().unwrap_or_default();
-        let density = pointwise.collect();
+        let density: Vec<Vec<f64>> = pointwise.collect();
+        check_result("the rate of the curvature", &curvature)?;
+        check_result("the rate of the metric", &metric)?;
+        check_result("the tangential velocity", &tangential_velocity)?;
+        density.iter().try_for_each(|rate| check_result("the rate of a density", rate))?;
         Ok(NodalRates { curvature, metric, density, tangential_velocity })
     }
 
     /// u with Hu = f, H = −`Δ_s` + κ² (O5), (O7).
     ///
     /// # Errors
-    /// [`NodalError`] if `f` does not fit the curve, or H is singular.
+    /// [`NodalError`] if `f` does not fit the curve, H is singular, or what is asked for overflows.
     pub fn helmholtz(&mut self, f: &[f64]) -> Result<Vec<f64>, NodalError> {
         self.check_field("right_hand_side", f)?;
         self.check_nodes()?;
@@ -183,13 +125,14 @@ impl NodalCurve {
         operator.set(self.at.at_nodes(0), self.at.length())?;
         let mut u = vec![0.0; f.len()];
         operator.solve(f, &mut u);
+        check_result("the solution", &u)?;
         Ok(u)
     }
 
     /// 𝓘f = f − κH⁻¹(κf) (F8).
     ///
     /// # Errors
-    /// [`NodalError`] if `f` does not fit the curve, or H is singular.
+    /// [`NodalError`] if `f` does not fit the curve, H is singular, or what is asked for overflows.
     pub fn incompressible(&mut self, f: &[f64]) -> Result<Vec<f64>, NodalError> {
         self.check_field("force", f)?;
         self.check_nodes()?;
@@ -197,6 +140,7 @@ impl NodalCurve {
         operator.set(&self.at).map_err(|MobilityError::Helmholtz(error)| error)?;
         let mut v = vec![0.0; f.len()];
         operator.apply(&self.at, f, &mut v);
+        check_result("the normal velocity", &v)?;
         Ok(v)
     }
 
@@ -219,8 +163,13 @@ pub(crate) fn nodal_state(curvature: &[f64], metric: &[f64], density: &[&[f64]],
     if layout.metric().is_some() {
         y.extend_from_slice(metric);
     }
-    y.push(metric.iter().sum::<f64>() / metric.len() as f64);
+    y.push(mean(metric));
     y
+}
+
+/// ⟨g⟩, which is the length.
+fn mean(metric: &[f64]) -> f64 {
+    metric.iter().sum::<f64>() / metric.len() as f64
 }
 
 fn spectral(nodal: &[f64], layout: Layout, grid: &mut PeriodicGrid) -> Vec<f64> {
@@ -232,7 +181,7 @@ fn spectral(nodal: &[f64], layout: Layout, grid: &mut PeriodicGrid) -> Vec<f64> 
 
 /// Largest distance of a metric from its mean, relative to that.
 fn spread(metric: &[f64]) -> f64 {
-    let mean = metric.iter().sum::<f64>() / metric.len() as f64;
+    let mean = mean(metric);
     metric.iter().map(|g| (g / mean - 1.0).abs()).fold(0.0, f64::max)
 }
 
@@ -253,6 +202,9 @@ pub(crate) fn check(
         let parameter = node as f64 / nodes as f64;
         return Err(GradingError::NotPositive { parameter, value: metric[node] }.into());
     }
+    if !mean(metric).is_finite() {
+        return Err(NodalError::NoLength { length: mean(metric) });
+    }
     density.iter().try_for_each(|rho| check_field("density", rho, nodes))
 }
 
@@ -262,6 +214,14 @@ fn check_field(field: &'static str, values: &[f64], nodes: usize) -> Result<(), 
     }
     match values.iter().position(|value| !value.is_finite()) {
         Some(node) => Err(NodalError::NotFinite { field, node, value: values[node] }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses a result that is not a number: a state is made of finite ones, so that it overflowed.
+fn check_result(result: &'static str, values: &[f64]) -> Result<(), NodalError> {
+    match values.iter().position(|value| !value.is_finite()) {
+        Some(node) => Err(NodalError::Overflow { result, node, value: values[node] }),
         None => Ok(()),
     }
 }
@@ -295,6 +255,23 @@ mod tests {
                 assert!(close(&curve.helmholtz(&wave).unwrap(), 1.0 / (mode * mode + 1.0)));
                 assert!(close(&curve.incompressible(&wave).unwrap(), mode * mode / (mode * mode + 1.0)));
             }
+        }
+    }
+
+    /// At scales whose squares are no numbers.
+    #[test]
+    fn what_overflows_is_refused() {
+        let wave: Vec<f64> = (0..32).map(|i| (TAU * f64::from(i) / 16.0).cos()).collect();
+        let curve = |scale: f64| {
+            let (kappa, metric) = ([TAU / scale; 32], [scale; 32]);
+            NodalCurve::new(&kappa, &metric, &[], DerivativeFamily::Fourier, Arc::new(ScaledArcLength))
+        };
+        assert!(matches!(curve(1e308), Err(NodalError::NoLength { length: f64::INFINITY })));
+        let mut small = curve(1e-200).unwrap();
+        assert!(matches!(small.flow_map(&wave), Err(NodalError::Overflow { .. })));
+        for result in [small.helmholtz(&wave), small.incompressible(&wave)] {
+            // κ² and 1/|Γ|² overflow: H is none.
+            assert!(result.is_err());
         }
     }
 }

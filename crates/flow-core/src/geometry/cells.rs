@@ -18,21 +18,26 @@ pub struct CellList {
 }
 
 impl CellList {
-    /// Room for `points` points.
+    /// Room for `points` points, all of them in one cell until they are sorted.
     #[must_use]
     pub fn new(points: usize) -> Self {
         let most_cells = (points as f64).sqrt().ceil().max(1.0) as usize;
+        let mut starts = Vec::with_capacity(most_cells * most_cells + 1);
+        starts.extend([0, points]);
         Self {
             cells: [1, 1],
             most_cells,
-            starts: Vec::with_capacity(most_cells * most_cells + 1),
-            order: vec![0; points],
+            starts,
+            order: (0..points).collect(),
             cell: vec![0; points],
             position: [vec![0.0; points], vec![0.0; points]],
         }
     }
 
     /// Sorts the points `position`, given by component, into cells not smaller than `radius`.
+    ///
+    /// # Panics
+    /// If they are not as many as there is room for.
     pub fn sort(&mut self, position: [&[f64]; 2], radius: f64) {
         let points = position[0].len();
         assert!(

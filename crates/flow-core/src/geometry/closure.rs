@@ -59,6 +59,8 @@ impl Closure {
     ///
     /// # Errors
     /// [`ClosureError`] if Newton's method does not reach rounding; `turning` is then meaningless.
+    /// # Panics
+    /// If `turning` has not the modes of the grid.
     pub fn project(
         &mut self,
         turning: &mut [Complex64],
@@ -66,6 +68,8 @@ impl Closure {
         turning_number: i32,
         angle: f64,
     ) -> Result<f64, ClosureError> {
+        let modes = self.embedding.shape_spectra()[0].len();
+        assert_eq!(turning.len(), modes, "a spectrum on the grid of the projection");
         turning[0] = Complex64::new(std::f64::consts::TAU * f64::from(turning_number), 0.0);
         let mut first_gap = 0.0;
         let mut gap = f64::INFINITY;

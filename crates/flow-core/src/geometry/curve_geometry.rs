@@ -29,6 +29,12 @@ pub enum GeometryError {
         "nodes {node} and {next} of `position` are the same point; drop one of them (the first one is not repeated at the end)"
     )]
     Repeated { node: usize, next: usize },
+    /// Too large or too small.
+    #[error(
+        "`position` is {length:.3e} long: the square of a length must be a number, neither too large nor too small for one; \
+         choose another unit of length"
+    )]
+    OutOfScale { length: f64 },
 }
 
 /// Geometry of a closed curve at its nodes, by trigonometric interpolation of the positions in the parameter s = i/n.
@@ -64,7 +70,7 @@ impl CurveGeometry {
     /// Geometry of the closed curve through the nodes `position`, of which the first is not repeated at the end.
     ///
     /// # Errors
-    /// [`GeometryError`] if they are too few, not finite, or stand still.
+    /// [`GeometryError`] if they are too few, not finite, stand still, or make a curve whose area would over- or underflow.
     /// # Source
     /// `THEORY.md`, eqs. (D1) and (G1)–(G6).
     pub fn of(position: &[[f64; 2]]) -> Result<Self, GeometryError> {
@@ -92,14 +98,23 @@ impl CurveGeometry {
         if let Some(node) = (0..nodes).find(|node| chord(*node) <= STOPS * length) {
             return Err(GeometryError::Repeated { node, next: (node + 1) % nodes });
         }
-        let curvature: Vec<f64> =
-            (0..nodes).map(|i| (dx[i] * ddy[i] - dy[i] * ddx[i]) / metric[i].powi(3)).collect();
+        if !(length * length).is_normal() {
+            return Err(GeometryError::OutOfScale { length });
+        }
+        // By unit tangents: the third power of a metric over- and underflows long before its square does.
+        let along = |i: usize| [dx[i] / metric[i], dy[i] / metric[i]];
+        let curvature: Vec<f64> = (0..nodes)
+            .map(|i| {
+                let [x, y] = along(i);
+                (x * ddy[i] - y * ddx[i]) / metric[i] / metric[i]
+            })
+            .collect();
         let (tangent_angle, turning_number) = continued_angles(&dx, &dy);
         let closure_defect = gap(&mut grid, &curvature, &metric);
         let per_length = [&dx, &dy].map(|d| d.iter().map(|d| d / length).collect::<Vec<f64>>());
         Ok(Self {
-            tangent: (0..nodes).map(|i| [dx[i] / metric[i], dy[i] / metric[i]]).collect(),
-            normal: (0..nodes).map(|i| [dy[i] / metric[i], -dx[i] / metric[i]]).collect(),
+            tangent: (0..nodes).map(along).collect(),
+            normal: (0..nodes).map(along).map(|[x, y]| [y, -x]).collect(),
             area: enclosed_area([&x, &y], [&per_length[0], &per_length[1]], length),
             curvature,
             metric,
@@ -203,6 +218,29 @@ mod tests {
         let clockwise = CurveGeometry::of(&ellipse(128, -1.0)).unwrap();
         assert_eq!((clockwise.turning_number, clockwise.area < 0.0), (-1, true));
         assert_eq!(CurveGeometry::of(&ellipse(256, 2.0)).unwrap().turning_number, 2);
+    }
+
+    /// As far as the area is a number; beyond, nothing is told rather than something wrong.
+    #[test]
+    fn curves_of_every_scale_are_right_or_refused() {
+        let unit = CurveGeometry::of(&ellipse(64, 1.0)).unwrap();
+        let scaled = |scale: f64| -> Vec<[f64; 2]> {
+            ellipse(64, 1.0).into_iter().map(|[x, y]| [scale * x, scale * y]).collect()
+        };
+        for exponent in [-150, -110, -60, 60, 104, 150] {
+            let scale = 10_f64.powi(exponent);
+            let geometry = CurveGeometry::of(&scaled(scale)).unwrap();
+            let close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * b.abs();
+            assert!(close(geometry.length, scale * unit.length), "{scale:e}");
+            assert!(close(geometry.area, scale * scale * unit.area), "{scale:e}");
+            assert!(geometry.closure_defect <= 1e-3 * geometry.length, "{scale:e}");
+            let pairs = geometry.curvature.iter().zip(&unit.curvature);
+            assert!(pairs.into_iter().all(|(a, b)| close(scale * a, *b)), "{scale:e}");
+        }
+        for exponent in [-320, -310, -200, -160, 160, 307] {
+            let error = CurveGeometry::of(&scaled(10_f64.powi(exponent))).expect_err("no area");
+            assert!(matches!(error, GeometryError::OutOfScale { .. }), "{error}");
+        }
     }
 
     #[test]

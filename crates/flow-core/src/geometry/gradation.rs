@@ -18,8 +18,16 @@ const LEAST_POINTS: usize = 256;
 
 /// Samples (see [`Grading::samples`]) of the grading on `nodes` nodes whose spacing is inversely proportional to `wave_numbers`,
 /// given at the `fractions` of the arc length in increasing order, the first of them 0.
+///
+/// # Panics
+/// If there is no node or no fraction, not one wave number for each of these, or one that is not positive and finite.
 #[must_use]
 pub fn follow_scales(fractions: &[f64], wave_numbers: &[f64], nodes: usize) -> Vec<f64> {
+    let count = fractions.len();
+    assert!(nodes > 0 && count > 0, "a grading of {nodes} nodes by {count} fractions");
+    assert_eq!(wave_numbers.len(), count, "one wave number per fraction");
+    let usable = |k: &f64| *k > 0.0 && k.is_finite();
+    assert!(wave_numbers.iter().all(usable), "wave numbers are positive and finite");
     let spacing: Vec<f64> = wave_numbers.iter().map(|k| 1.0 / k).collect();
     let spacing = limit_growth(fractions, spacing);
     let logarithms: Vec<f64> = spacing.iter().map(|h| h.ln()).collect();

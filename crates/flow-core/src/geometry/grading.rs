@@ -25,6 +25,9 @@ pub struct Grading {
 }
 
 impl Grading {
+    /// Fewest nodes that may be graded.
+    pub const FEWEST_NODES: usize = 2;
+
     /// Number of samples for `nodes` nodes, at s = i/(2 `nodes`).
     #[must_use]
     pub fn samples(nodes: usize) -> usize {
@@ -34,10 +37,12 @@ impl Grading {
     /// The grading with the values `samples` at s = i/(2n), an even number of them, normalised to mean 1 over the nodes.
     ///
     /// # Errors
-    /// [`GradingError`] if a value is not positive, or n nodes do not resolve them.
+    /// [`GradingError`] if their number is odd or less than 4, a value is not positive, or n nodes do not resolve them.
     pub fn new(samples: &[f64]) -> Result<Self, GradingError> {
         let nodes = samples.len() / 2;
-        assert!(nodes >= 2 && samples.len() == 2 * nodes, "two samples for each of at least two nodes");
+        if nodes < Self::FEWEST_NODES || samples.len() != Self::samples(nodes) {
+            return Err(GradingError::Samples { samples: samples.len() });
+        }
         // In units of a power of two near the largest, which is exact, so that no sum overflows.
         let largest = samples.iter().copied().filter(|value| value.is_finite()).fold(0.0, f64::max);
         let unit = largest.log2().floor().min(1023.0).exp2();

@@ -5,6 +5,11 @@
 #[non_exhaustive]
 #[allow(missing_docs)] // each message names its fields
 pub enum GradingError {
+    /// An odd number of samples, or too few.
+    #[error(
+        "the grading has {samples} samples: it takes an even number of them, two for each of at least two nodes"
+    )]
+    Samples { samples: usize },
     /// Not a metric.
     #[error(
         "the grading is {value:?} at s = {parameter:.6}: it must be positive and finite for all s in [0, 1), and not \

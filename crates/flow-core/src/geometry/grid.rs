@@ -20,6 +20,9 @@ pub struct PeriodicGrid {
 
 impl PeriodicGrid {
     /// A grid of `nodes` ≥ 2 nodes.
+    ///
+    /// # Panics
+    /// If there are fewer.
     #[must_use]
     pub fn new(nodes: usize) -> Self {
         assert!(nodes >= 2, "a periodic grid needs two nodes");
@@ -54,6 +57,14 @@ impl PeriodicGrid {
     #[must_use]
     pub fn wave_number(&self, mode: usize) -> f64 {
         TAU * mode as f64
+    }
+
+    /// Symbol of the shift by half a node distance; the sawtooth vanishes between the nodes.
+    pub(crate) fn half_step(&self, mode: usize) -> Complex64 {
+        if Some(mode) == self.sawtooth_mode() {
+            return Complex64::default();
+        }
+        Complex64::cis(0.5 * self.wave_number(mode) / self.nodes as f64)
     }
 
     /// How often a mode of the half spectrum stands in the full one: 1 for the mean and the sawtooth, else 2.

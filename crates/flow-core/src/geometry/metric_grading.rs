@@ -9,9 +9,13 @@ impl Grading {
     /// The grading w = g/⟨g⟩ of the nodal `metric` g, at the midpoints by trigonometric interpolation.
     ///
     /// # Errors
-    /// [`GradingError::NotPositive`] if the metric, or its interpolant between two nodes, is not positive.
+    /// [`GradingError::NotPositive`] if the metric, or its interpolant between two nodes, is not positive; [`GradingError::Samples`]
+    /// if there are fewer than two nodes.
     pub fn of_metric(metric: &[f64]) -> Result<Self, GradingError> {
         let nodes = metric.len();
+        if nodes < Self::FEWEST_NODES {
+            return Err(GradingError::Samples { samples: Self::samples(nodes) });
+        }
         let mut grid = PeriodicGrid::new(nodes);
         let mut spectrum = vec![Complex64::default(); grid.modes()];
         grid.transform(metric, &mut spectrum);
@@ -44,5 +48,17 @@ mod tests {
         let mut metric = vec![1.0; 32];
         metric[3] = -1.0;
         assert!(matches!(Grading::of_metric(&metric), Err(GradingError::NotPositive { .. })));
+    }
+
+    #[test]
+    fn other_numbers_of_samples_are_refused() {
+        for nodes in [0, 1] {
+            let error = Grading::of_metric(&vec![1.0; nodes]);
+            assert_eq!(error, Err(GradingError::Samples { samples: 2 * nodes }));
+        }
+        for samples in [0, 1, 2, 3, 5, 65] {
+            assert_eq!(Grading::new(&vec![1.0; samples]), Err(GradingError::Samples { samples }));
+        }
+        assert!(Grading::new(&[1.0; 4]).is_ok());
     }
 }

@@ -21,6 +21,9 @@ pub fn resample_spectrum(nodes: usize, spectrum: &[Complex64], to: usize, out: &
 }
 
 /// Periodic nodal values on `count` nodes instead.
+///
+/// # Panics
+/// If there are fewer than two nodes before or after.
 #[must_use]
 pub fn resample(values: &[f64], count: usize) -> Vec<f64> {
     let (mut old, mut new) = (PeriodicGrid::new(values.len()), PeriodicGrid::new(count));

@@ -44,7 +44,7 @@ pub struct ScatteredPoints {
 }
 
 impl ScatteredPoints {
-    /// The parameters `places`, for polynomials given on `nodes` nodes.
+    /// The parameters `places`, for polynomials given on `nodes` nodes. At a place that is not finite their value is NaN.
     #[must_use]
     pub fn new(nodes: usize, places: &[f64]) -> Self {
         let fine = PeriodicGrid::new((2 * nodes).max(2 * WIDTH));
@@ -68,7 +68,11 @@ impl ScatteredPoints {
     }
 
     /// Values at the points of the polynomial with the coefficients `spectrum`.
+    ///
+    /// # Panics
+    /// If these are not the `nodes`/2 + 1 coefficients of `nodes` nodes.
     pub fn values(&mut self, spectrum: &[Complex64]) -> Vec<f64> {
+        assert_eq!(spectrum.len(), self.nodes / 2 + 1, "the coefficients of {} nodes", self.nodes);
         resample_spectrum(self.nodes, spectrum, self.fine.nodes(), &mut self.spectrum);
         for (value, factor) in self.spectrum.iter_mut().zip(&*self.deconvolution) {
             *value *= *factor;
@@ -92,7 +96,7 @@ fn spread(places: &[f64], fine: usize, firsts: &mut [usize], weights: &mut [Weig
         for (i, weight) in weights.iter_mut().enumerate() {
             let z = (node - place + i as f64) * (2.0 / WIDTH as f64);
             let square = 1.0 - z * z;
-            let height = if square > 0.0 { square } else { 0.0 };
+            let height = if square < 0.0 { 0.0 } else { square }; // NaN passes through
             let kernel = exp(SHAPE * (height.sqrt() - 1.0));
             *weight = if i < WIDTH { kernel } else { 0.0 };
         }

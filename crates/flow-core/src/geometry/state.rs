@@ -81,6 +81,9 @@ impl Layout {
     }
 
     /// State vector of pointwise `curvature` and `density` on a curve of the given length with uniform metric.
+    ///
+    /// # Panics
+    /// If there is not one value per node and field.
     #[must_use]
     pub fn assemble(&self, curvature: &[f64], density: &[Vec<f64>], length: f64) -> Vec<f64> {
         let mut y = Vec::with_capacity(self.len());
@@ -106,6 +109,9 @@ pub struct StateRef<'a> {
 
 impl<'a> StateRef<'a> {
     /// Wraps a state vector.
+    ///
+    /// # Panics
+    /// If it has not the length that `layout` says.
     #[must_use]
     pub fn new(layout: Layout, values: &'a [f64]) -> Self {
         assert_eq!(values.len(), layout.len(), "length of the state vector");

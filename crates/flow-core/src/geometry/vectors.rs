@@ -1,4 +1,7 @@
 //! Loops over nodal values and over spectra, compiled for the widest vector registers at hand.
+//!
+//! The slices of a call have one length, which is for the caller to see to: nothing is checked here, and a loop ends with its
+//! shortest slice.
 
 use multiversion::multiversion;
 

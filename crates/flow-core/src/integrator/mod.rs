@@ -25,7 +25,7 @@ pub use bdf::Bdf;
 pub use error::IntegrationError;
 pub use error_norm::ErrorNorm;
 pub use exponential::{Exponential, ExponentialMemory};
-pub use gmres::{Gmres, Target};
+pub use gmres::{Gmres, Solved, Target};
 pub use history::History;
 pub use integrals::Integrals;
 pub use linear_part::LinearPart;

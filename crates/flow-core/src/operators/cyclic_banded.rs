@@ -41,14 +41,21 @@ pub struct CyclicBanded<const B: usize> {
 
 impl<const B: usize> CyclicBanded<B> {
     /// A zero matrix of `rows` ≥ 3`B` rows.
+    ///
+    /// # Panics
+    /// If there are fewer, or `B` is 0.
     #[must_use]
     pub fn new(rows: usize) -> Self {
         Self::in_blocks(rows, 1)
     }
 
     /// A zero matrix of `rows` ≥ 3`B` rows in blocks of `block`, which no segment cuts.
+    ///
+    /// # Panics
+    /// If there are fewer, no whole blocks of them, or `B` is 0.
     #[must_use]
     pub fn in_blocks(rows: usize, block: usize) -> Self {
+        assert!(B > 0, "a matrix without bands is diagonal");
         assert!(rows >= 3 * B, "a cyclic band of half-width {B} needs {} rows", 3 * B);
         assert!(rows.is_multiple_of(block), "{rows} rows in blocks of {block}");
         let blocks = rows / block;
@@ -109,7 +116,12 @@ impl<const B: usize> CyclicBanded<B> {
     }
 
     /// Sets the entry in `row` and column `row + offset` (cyclic), |`offset`| ≤ `B`.
+    ///
+    /// # Panics
+    /// If there is no such row, or the offset is larger.
     pub fn set(&mut self, row: usize, offset: isize, value: f64) {
+        let inside = row < self.rows && offset.unsigned_abs() <= B;
+        assert!(inside, "offset {offset} in row {row} of {} with {B} bands on each side", self.rows);
         let column = (row as isize + offset).rem_euclid(self.rows as isize) as usize;
         let ((segment, r), (column_segment, c)) = (self.locate(row), self.locate(column));
         let factors = &mut self.factors;
@@ -211,6 +223,9 @@ impl<const B: usize> CyclicBanded<B> {
 
     /// Overwrites the right-hand side `x` by the solution. In blocks, `x` holds the first rows of all blocks, then their second
     /// rows, and so on.
+    ///
+    /// # Panics
+    /// If there is not one value per row.
     pub fn solve(&mut self, x: &mut [f64]) {
         assert_eq!(x.len(), self.rows, "length of the right-hand side");
         let (interior, segments) = (self.factors.interior, self.segments);

@@ -120,6 +120,9 @@ impl Derivative {
     ///
     /// The Fourier derivative to graded nodes goes to the midpoints and sees the sawtooth: at the nodes D₊ᵀ(1/w)D₊ would
     /// lose it.
+    ///
+    /// # Panics
+    /// If the grading has another number of nodes.
     #[must_use]
     pub fn graded(family: DerivativeFamily, grid: &PeriodicGrid, grading: Option<Arc<Grading>>) -> Self {
         let midpoints = grading.is_some();
@@ -128,6 +131,9 @@ impl Derivative {
 
     /// The same with the midpoints for flux points, whatever the family: for energies of slopes, which at the nodes cost the sawtooth
     /// nothing.
+    ///
+    /// # Panics
+    /// If the grading has another number of nodes.
     #[must_use]
     pub fn staggered(family: DerivativeFamily, grid: &PeriodicGrid, grading: Option<Arc<Grading>>) -> Self {
         Self::build(family, grid, grading, true)
@@ -139,6 +145,8 @@ impl Derivative {
         grading: Option<Arc<Grading>>,
         midpoints: bool,
     ) -> Self {
+        let fits = grading.as_ref().is_none_or(|grading| grading.nodes() == grid.nodes());
+        assert!(fits, "a grading of other nodes than the {} of the grid", grid.nodes());
         let to_flux: Vec<_> =
             (0..grid.modes()).map(|mode| Self::flux_symbol(family, midpoints, grid, mode)).collect();
         let inverse_to_flux = to_flux
@@ -148,7 +156,7 @@ impl Derivative {
         let symbols = |symbol: &dyn Fn(usize) -> Complex64| (0..grid.modes()).map(symbol).collect::<Vec<_>>();
         let interpolation = match family.stencil() {
             Some(stencil) => Some(symbols(&|mode| Self::mean_symbol(stencil, grid, mode))),
-            None if midpoints => Some(symbols(&|mode| Self::half_step(grid, mode))),
+            None if midpoints => Some(symbols(&|mode| grid.half_step(mode))),
             None => None,
         };
         // The nodal Fourier derivative loses the sawtooth; the second derivative must not.
@@ -161,20 +169,12 @@ impl Derivative {
         Self { family, to_flux, inverse_to_flux, interpolation, minus_laplacian, grading }
     }
 
-    /// Shift to the midpoints, where the sawtooth vanishes.
-    fn half_step(grid: &PeriodicGrid, mode: usize) -> Complex64 {
-        if Some(mode) == grid.sawtooth_mode() {
-            return Complex64::default();
-        }
-        Complex64::cis(0.5 * grid.wave_number(mode) / grid.nodes() as f64)
-    }
-
     fn flux_symbol(family: DerivativeFamily, midpoints: bool, grid: &PeriodicGrid, mode: usize) -> Complex64 {
         match family.stencil() {
             None if midpoints && Some(mode) == grid.sawtooth_mode() => {
                 Complex64::new(-grid.wave_number(mode), 0.0)
             }
-            None if midpoints => Complex64::new(0.0, grid.wave_number(mode)) * Self::half_step(grid, mode),
+            None if midpoints => Complex64::new(0.0, grid.wave_number(mode)) * grid.half_step(mode),
             None if Some(mode) == grid.sawtooth_mode() => Complex64::default(),
             None => Complex64::new(0.0, grid.wave_number(mode)),
             Some(stencil) => {

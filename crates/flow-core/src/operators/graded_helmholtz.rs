@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::cyclic_banded::CyclicBanded;
 use super::derivative::{Derivative, DerivativeFamily};
-use super::helmholtz::{Helmholtz, HelmholtzError, LEAST_CURVATURE, REFINED_FROM};
+use super::helmholtz::{Helmholtz, HelmholtzError, LEAST_CURVATURE, REFINED_FROM, check_length, check_solve};
 use crate::geometry::Grading;
 use crate::geometry::vectors::mean_of_triple_product;
 
@@ -19,11 +19,15 @@ pub enum CurveHelmholtz {
 
 impl CurveHelmholtz {
     /// Room for H on `nodes` ≥ [`Helmholtz::FEWEST_NODES`] nodes in the metric of `derivative`.
+    ///
+    /// # Panics
+    /// If there are fewer nodes, or `derivative` is graded on another number of them.
     #[must_use]
     pub fn new(derivative: &Derivative, nodes: usize) -> Self {
         match derivative.grading() {
             None => Self::Uniform(Box::new(Helmholtz::new(derivative.family(), nodes))),
             Some(grading) => {
+                assert_eq!(grading.nodes(), nodes, "the derivative is graded on other nodes");
                 Self::Graded(Box::new(GradedHelmholtz::new(derivative.family(), grading.clone())))
             }
         }
@@ -32,7 +36,7 @@ impl CurveHelmholtz {
     /// Goes on with the metric `grading`, on as many nodes.
     ///
     /// # Panics
-    /// If the operator was made for uniform nodes.
+    /// If the operator was made for uniform nodes, or the metric has another number of them.
     pub fn follow(&mut self, grading: &Grading) {
         match self {
             Self::Uniform(_) => panic!("an operator on uniform nodes follows no metric"),
@@ -43,7 +47,10 @@ impl CurveHelmholtz {
     /// Factorises H for the nodal `curvature` on a curve of length `length`, without allocating.
     ///
     /// # Errors
-    /// [`HelmholtzError`] if the curvature vanishes or is not finite, or the factorisation fails.
+    /// [`HelmholtzError`] if the curvature vanishes or is not finite, the length is not positive, or the factorisation fails: no
+    /// factorisation is held then.
+    /// # Panics
+    /// If there is not one curvature per node.
     pub fn set(&mut self, curvature: &[f64], length: f64) -> Result<(), HelmholtzError> {
         match self {
             Self::Uniform(operator) => operator.set(curvature, length),
@@ -52,6 +59,9 @@ impl CurveHelmholtz {
     }
 
     /// Solves H u = f with the factorisation held. Shapes: one value per node.
+    ///
+    /// # Panics
+    /// If `f` or `u` has another number of values, or no factorisation is held: before [`Self::set`], and after one that failed.
     pub fn solve(&mut self, f: &[f64], u: &mut [f64]) {
         match self {
             Self::Uniform(operator) => operator.solve(f, u),
@@ -70,6 +80,8 @@ pub struct GradedHelmholtz {
     /// Coefficients of D₊ per node distance, of the differences u(i+1+j) − u(i−j).
     stencil: &'static [f64],
     band: CyclicBanded<WIDTH>,
+    /// Whether the band holds a factorisation, that of the last state given.
+    factorised: bool,
     scale: f64,
     /// wκ².
     square: Vec<f64>,
@@ -84,6 +96,7 @@ impl GradedHelmholtz {
             grading,
             stencil: family.differences(),
             band: CyclicBanded::new(nodes),
+            factorised: false,
             scale: 0.0,
             square: vec![0.0; nodes],
             slope: vec![0.0; nodes],
@@ -92,6 +105,9 @@ impl GradedHelmholtz {
     }
 
     fn set(&mut self, curvature: &[f64], length: f64) -> Result<(), HelmholtzError> {
+        assert_eq!(curvature.len(), self.square.len(), "H takes one curvature per node");
+        self.factorised = false;
+        check_length(length)?;
         let weight = self.grading.weight();
         let value = length * length * mean_of_triple_product(weight, curvature, curvature);
         if !(value >= LEAST_CURVATURE && value.is_finite()) {
@@ -121,10 +137,13 @@ impl GradedHelmholtz {
             }
             self.band.set_row(row, -(WIDTH as isize), &entries);
         }
-        self.band.factorise().map_err(HelmholtzError::Singular)
+        self.band.factorise().map_err(HelmholtzError::Singular)?;
+        self.factorised = true;
+        Ok(())
     }
 
     fn solve(&mut self, f: &[f64], u: &mut [f64]) {
+        check_solve(self.factorised, self.square.len(), f, u);
         for ((u, f), weight) in u.iter_mut().zip(f).zip(self.grading.weight()) {
             *u = weight * f;
         }

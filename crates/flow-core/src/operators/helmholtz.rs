@@ -8,6 +8,7 @@ use std::fmt::Debug;
 
 use super::cyclic_banded::{CyclicBanded, FactorisationError};
 use super::derivative::DerivativeFamily;
+use super::half_stencil::{add_convolution, half_stencil, pad, square, wrap};
 
 /// H has no usable inverse.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -20,6 +21,9 @@ pub enum HelmholtzError {
          tolerance, or more nodes"
     )]
     NoCurvature { value: f64 },
+    /// No curve has such a length.
+    #[error("the length of the curve is {length:?}: it must be positive and finite")]
+    NoLength { length: f64 },
     /// A pivot vanished.
     #[error("−Δ_s + κ²: {0}")]
     Singular(FactorisationError),
@@ -48,6 +52,8 @@ pub struct Helmholtz {
     mass: Vec<f64>,
     laplacian: Vec<f64>,
     band: Box<dyn Band>,
+    /// Whether the band holds a factorisation, that of the last state given.
+    factorised: bool,
     scale: f64,
     /// κ², and two fields of scratch, each continued periodically by the half-width on both sides.
     square: Vec<f64>,
@@ -65,6 +71,7 @@ impl Clone for Helmholtz {
             mass: self.mass.clone(),
             laplacian: self.laplacian.clone(),
             band: self.band.boxed_clone(),
+            factorised: self.factorised,
             scale: self.scale,
             square: self.square.clone(),
             padded: self.padded.clone(),
@@ -80,8 +87,12 @@ impl Helmholtz {
 
     /// Room for H on `nodes` ≥ [`Self::FEWEST_NODES`] nodes with the second difference D₋D₊ of a central family; for the
     /// Fourier family with a compact one of order 8.
+    ///
+    /// # Panics
+    /// If there are fewer nodes.
     #[must_use]
     pub fn new(family: DerivativeFamily, nodes: usize) -> Self {
+        assert!(nodes >= Self::FEWEST_NODES, "H takes {} nodes at least, not {nodes}", Self::FEWEST_NODES);
         let (numerator, mass) = match family.order() {
             None => (COMPACT[0].to_vec(), COMPACT[1].to_vec()),
             Some(order) => (square(&STAGGERED[..order as usize / 2]), vec![1.0]),
@@ -97,6 +108,7 @@ impl Helmholtz {
             laplacian,
             polynomials: [numerator, mass],
             band: band(width, nodes),
+            factorised: false,
             scale: 0.0,
             square: padded.clone(),
             padded: padded.clone(),
@@ -117,8 +129,14 @@ impl Helmholtz {
     /// Factorises H for the nodal `curvature` on a curve of length `length`, without allocating.
     ///
     /// # Errors
-    /// [`HelmholtzError`] if the curvature vanishes or is not finite, or the factorisation fails.
+    /// [`HelmholtzError`] if the curvature vanishes or is not finite, the length is not positive, or the factorisation fails: no
+    /// factorisation is held then.
+    /// # Panics
+    /// If there is not one curvature per node.
     pub fn set(&mut self, curvature: &[f64], length: f64) -> Result<(), HelmholtzError> {
+        assert_eq!(curvature.len(), self.nodes, "H takes one curvature per node");
+        self.factorised = false;
+        check_length(length)?;
         for (square, kappa) in self.residual.iter_mut().zip(curvature) {
             *square = kappa * kappa;
         }
@@ -129,7 +147,9 @@ impl Helmholtz {
         pad(&self.residual, &mut self.square);
         self.scale = (self.nodes as f64 / length).powi(2);
         self.band.assemble(&self.laplacian, self.scale, &self.mass, &self.square);
-        self.band.factorise().map_err(HelmholtzError::Singular)
+        self.band.factorise().map_err(HelmholtzError::Singular)?;
+        self.factorised = true;
+        Ok(())
     }
 
     /// Solves H u = f with the factorisation held, in `O(n)`, without allocating.
@@ -141,7 +161,10 @@ impl Helmholtz {
     /// # Source
     /// `THEORY.md`, eq. (O5). On many nodes one step of refinement follows, with the residual as differences of
     /// differences: it takes out the rounding of the assembled band.
+    /// # Panics
+    /// If `f` or `u` has another number of values, or no factorisation is held: before [`Helmholtz::set`], and after one that failed.
     pub fn solve(&mut self, f: &[f64], u: &mut [f64]) {
+        check_solve(self.factorised, self.nodes, f, u);
         pad(f, &mut self.padded);
         u.fill(0.0);
         add_convolution(&self.mass, 1.0, &self.padded, u);
@@ -176,6 +199,17 @@ impl Helmholtz {
         wrap(&mut self.difference, width);
         add_convolution(&self.flux, -self.scale, &self.difference, &mut self.residual);
     }
+}
+
+/// Refuses what is not the length of a curve.
+pub(super) fn check_length(length: f64) -> Result<(), HelmholtzError> {
+    if length > 0.0 && length.is_finite() { Ok(()) } else { Err(HelmholtzError::NoLength { length }) }
+}
+
+/// Panics unless H is `factorised` and both sides have one value per node.
+pub(super) fn check_solve(factorised: bool, nodes: usize, f: &[f64], u: &[f64]) {
+    assert!(factorised, "H is not factorised: it has not been set, or that failed");
+    assert!(f.len() == nodes && u.len() == nodes, "both sides of H u = f have one value per node");
 }
 
 /// A cyclic band of any half-width.
@@ -226,54 +260,5 @@ fn band(width: usize, nodes: usize) -> Box<dyn Band> {
         3 => Box::new(CyclicBanded::<3>::new(nodes)),
         5 => Box::new(CyclicBanded::<5>::new(nodes)),
         _ => Box::new(CyclicBanded::<WIDEST>::new(nodes)),
-    }
-}
-
-/// Square of a polynomial.
-fn square(polynomial: &[f64]) -> Vec<f64> {
-    let mut square = vec![0.0; 2 * polynomial.len() - 1];
-    for (i, a) in polynomial.iter().enumerate() {
-        for (j, b) in polynomial.iter().enumerate() {
-            square[i + j] += a * b;
-        }
-    }
-    square
-}
-
-/// Coefficients at the offsets 0, 1, … of a polynomial in x = −δ², by Horner's rule.
-fn half_stencil(polynomial: &[f64]) -> Vec<f64> {
-    let width = polynomial.len() - 1;
-    let mut stencil = vec![0.0; width + 1];
-    for coefficient in polynomial.iter().rev() {
-        let at = |k: isize| stencil.get(k.unsigned_abs()).copied().unwrap_or(0.0);
-        stencil = (0..=width as isize).map(|k| 2.0 * at(k) - at(k - 1) - at(k + 1)).collect();
-        stencil[0] += coefficient;
-    }
-    stencil
-}
-
-/// Copies nodal values between the margins, and fills these.
-fn pad(values: &[f64], padded: &mut [f64]) {
-    let width = (padded.len() - values.len()) / 2;
-    padded[width..width + values.len()].copy_from_slice(values);
-    wrap(padded, width);
-}
-
-/// Fills the margins by the periodic continuation.
-fn wrap(padded: &mut [f64], width: usize) {
-    let nodes = padded.len() - 2 * width;
-    padded.copy_within(nodes..nodes + width, 0);
-    padded.copy_within(width..2 * width, nodes + width);
-}
-
-/// out += factor × stencil ∗ padded.
-fn add_convolution(half: &[f64], factor: f64, padded: &[f64], out: &mut [f64]) {
-    let (nodes, width) = (out.len(), (padded.len() - out.len()) / 2);
-    for (k, coefficient) in half.iter().enumerate() {
-        let weight = factor * if k == 0 { 0.5 * coefficient } else { *coefficient };
-        let (left, right) = (&padded[width - k..][..nodes], &padded[width + k..][..nodes]);
-        for ((out, left), right) in out.iter_mut().zip(left).zip(right) {
-            *out += weight * (left + right);
-        }
     }
 }

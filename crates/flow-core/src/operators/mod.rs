@@ -5,6 +5,7 @@ mod cyclic_banded;
 mod derivative;
 mod graded_helmholtz;
 mod graded_laplacian;
+mod half_stencil;
 mod helmholtz;
 mod small_lu;
 

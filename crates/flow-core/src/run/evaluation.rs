@@ -45,14 +45,14 @@ pub fn evaluate(
     metric: &[f64],
     density: &[&[f64]],
 ) -> Result<Evaluation, EvaluationError> {
+    let mut scene = scene.clone().checked().map_err(SetupError::from)?;
     let (nodes, expected) = (curvature.len(), scene.density.len());
     if density.len() != expected {
         return Err(EvaluationError::Densities { expected, found: density.len() });
     }
     check(nodes, curvature, metric, density)?;
-    let mut scene = scene.clone();
     scene.accuracy.nodes = Nodes::Count(nodes);
-    let initial = Setup::new(&scene)?.initial;
+    let initial = Setup::of(&scene)?.initial;
     scene.flow.gauge = gauge(&scene, metric);
     let uniform = scene.flow.gauge.metric() == MetricRole::Uniform;
     let grading =

@@ -13,6 +13,9 @@ pub struct Interpolant {
 
 impl Interpolant {
     /// Through `values` at the nodes s = i/n.
+    ///
+    /// # Panics
+    /// If there are fewer than two of them.
     #[must_use]
     pub fn new(values: &[f64]) -> Self {
         let mut grid = PeriodicGrid::new(values.len());

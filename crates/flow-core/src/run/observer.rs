@@ -21,7 +21,9 @@ pub struct Progress {
     pub length: f64,
 }
 
-/// Watches a run.
+/// Watches a run, by the numbers of its [`Progress`]; the state itself it does not see. To stop by the state, take the steps with
+/// [`Simulation::step`](super::Simulation::step) and look at [`Simulation::frame`](super::Simulation::frame), which costs about an
+/// evaluation, or [`Simulation::state`](super::Simulation::state).
 pub trait Observer {
     /// Called after every accepted step; `Break` stops the run, which keeps what it has.
     fn after_step(&mut self, progress: &Progress) -> ControlFlow<()>;

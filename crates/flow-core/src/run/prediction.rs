@@ -70,6 +70,7 @@ const FILE_BYTES_PER_SECOND: f64 = 300e6;
 /// # Errors
 /// [`SetupError`] if the scene makes no initial state.
 pub fn predict(scene: &Scene) -> Result<Prediction, SetupError> {
+    let scene = &scene.clone().checked()?;
     let layout = Simulation::new(scene)?.layout();
     let (record, step_ends) = run_trial(&trial_scene(scene))?;
     let trial = Trial {

@@ -13,8 +13,9 @@ use super::mesh::Mesh;
 use super::mobilities::{density_mobilities, normal_mobility};
 use super::scene::{self, Scene};
 use super::setup_error::SetupError;
+use super::shape::shape;
 use crate::flow::{EnergySum, FlowMap, GradientFlow, LinearSolver, MetricRole};
-use crate::geometry::shapes::{Resampled, Shape};
+use crate::geometry::shapes::Resampled;
 use crate::geometry::{Embedding, Grading, Layout, PeriodicGrid, Placement, SpectralLayout, enclosed_area};
 use crate::operators::{Derivative, DerivativeFamily};
 
@@ -28,27 +29,32 @@ pub struct Setup {
     /// Where the initial curve lies.
     pub placement: Placement,
     /// What frames hold on request.
-    pub diagnostics: Diagnostics,
+    pub(super) diagnostics: Diagnostics,
     /// Gap of the initial curve before it was closed.
     pub closure_defect: f64,
     /// The gauge in force and those to come.
-    pub gauges: Gauges,
+    pub(super) gauges: Gauges,
     /// The nodes at the start.
-    pub mesh: Mesh,
+    pub(super) mesh: Mesh,
     /// Chooses them, if the scene leaves that to the program.
-    pub adaptation: Option<Adaptation>,
+    pub(super) adaptation: Option<Adaptation>,
     /// Part of the initial data that the nodes miss.
-    pub missed: f64,
+    pub(super) missed: f64,
     /// What the energies refer to.
     pub(super) initial: Initial,
 }
 
 impl Setup {
-    /// Builds what the scene names, and nothing else.
+    /// Builds what the scene names, and nothing else; if its values were changed since it was read, they are checked first.
     ///
     /// # Errors
     /// [`SetupError`] if the curve or the data of the scene make no initial state.
     pub fn new(scene: &Scene) -> Result<Self, SetupError> {
+        Self::of(&scene.clone().checked()?)
+    }
+
+    /// Builds what the scene names, and nothing else; its values are taken for checked.
+    pub(super) fn of(scene: &Scene) -> Result<Self, SetupError> {
         let curve = shape(&scene.curve.shape).by_arc_length()?;
         let initial_length = curve.length();
         let (InitialState { mesh, grading, curve, state, closure_defect }, missed) =
@@ -72,8 +78,8 @@ impl Setup {
             gauges,
             mesh,
             adaptation,
-            initial,
             missed,
+            initial,
         })
     }
 }
@@ -116,22 +122,6 @@ fn area(state: &[f64], layout: Layout, curve: &Resampled, grading: Option<Arc<Gr
     embedding.set_tangent_spectrum(&spectral.spectra(state)[..spectral.modes()], curve.length, 0.0);
     embedding.set_position(curve.length, [0.0; 2]);
     enclosed_area(embedding.position(), embedding.tangent(), curve.length)
-}
-
-/// The curve that a scene names.
-#[must_use]
-pub fn shape(shape: &scene::Shape) -> Shape {
-    match shape {
-        scene::Shape::Circle { radius } => Shape::Circle { radius: *radius },
-        scene::Shape::Ellipse { semi_axes } => Shape::Ellipse { semi_axes: *semi_axes },
-        scene::Shape::Trillium {} => Shape::Trillium,
-        scene::Shape::FigureEight { size } => Shape::FigureEight { size: *size },
-        scene::Shape::Polar { r } => Shape::Polar { r: r.expression().clone() },
-        scene::Shape::Parametric { x, y } => {
-            Shape::Parametric { x: x.expression().clone(), y: y.expression().clone() }
-        }
-        scene::Shape::Points { points } => Shape::Points(points.clone()),
-    }
 }
 
 /// The family of derivatives of `scene` on nodes that are `graded` or not.

@@ -1,5 +1,6 @@
 //! Why a scene that reads well makes no initial state.
 
+use super::scene::SceneError;
 use crate::expression::ExpressionError;
 use crate::geometry::shapes::ShapeError;
 use crate::geometry::{Brief, GradingError};
@@ -9,6 +10,9 @@ use crate::geometry::{Brief, GradingError};
 #[non_exhaustive]
 #[allow(missing_docs)] // each message names its fields
 pub enum SetupError {
+    /// Values of the scene were changed after it was read, to what makes no scene.
+    #[error(transparent)]
+    Scene(Box<SceneError>),
     /// The curve is not usable.
     #[error("`curve`: {0}")]
     Curve(ShapeError),
@@ -78,6 +82,12 @@ pub enum SetupError {
     /// A term refuses the initial data.
     #[error(transparent)]
     Term(#[from] crate::energies::TermFault),
+}
+
+impl From<SceneError> for SetupError {
+    fn from(error: SceneError) -> Self {
+        Self::Scene(Box::new(error))
+    }
 }
 
 impl From<GradingError> for SetupError {

@@ -16,6 +16,7 @@ mod linear_solvers;
 mod mobilities;
 mod mobility_laws;
 mod pointwise_force;
+mod refusals;
 mod regrading;
 mod scalar;
 mod second_derivative;

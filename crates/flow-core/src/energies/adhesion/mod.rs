@@ -64,7 +64,10 @@ impl Adhesion {
     ///
     /// # Errors
     /// [`ExpressionError`] if a derivative of the kernel is too large.
+    /// # Panics
+    /// If the kernel depends on a second variable.
     pub fn new(kernel: &Expression, cut_off: CutOff, nodes: usize) -> Result<Self, ExpressionError> {
+        assert!(kernel.arity() <= 1, "`{}` is no function of q alone", kernel.text());
         let field = || vec![0.0; nodes];
         let pair = || [field(), field()];
         let of_pairs = || vec![0.0; (pairs::PAIRS_TOGETHER + nodes).min(nodes * nodes)];

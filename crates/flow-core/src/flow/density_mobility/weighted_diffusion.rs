@@ -27,6 +27,9 @@ pub struct WeightedDiffusion {
 
 impl WeightedDiffusion {
     /// The mobility with the values `weight` > 0 at the flux points, which are at [`WeightedDiffusion::flux_points`].
+    ///
+    /// # Panics
+    /// If there is not one weight per flux point.
     #[must_use]
     pub fn new(grid: &PeriodicGrid, derivative: &Derivative, weight: Vec<f64>) -> Self {
         assert_eq!(weight.len(), grid.nodes(), "one weight per flux point");

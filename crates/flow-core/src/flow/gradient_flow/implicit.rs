@@ -7,6 +7,9 @@ use crate::geometry::vectors::{add_product, mean};
 
 impl GradientFlow {
     /// Product of the frozen −𝓚 Hess `𝓕_h` with `v`, both spectral.
+    ///
+    /// # Panics
+    /// Before [`GradientFlow::spectral_linearise`].
     pub fn spectral_jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
         self.spectral_hessian_product(v);
         self.descend(true);
@@ -15,6 +18,9 @@ impl GradientFlow {
 
     /// Product of the implicit operator with the spectral `v`: −𝓚 Hess `𝓕_h` at the linearisation, and what the tension there
     /// does to a change of the curvature.
+    ///
+    /// # Panics
+    /// Before [`GradientFlow::spectral_linearise`].
     pub fn implicit_product(&mut self, v: &[f64], out: &mut [f64]) {
         self.spectral_hessian_product(v);
         self.map.force(&self.frozen, &self.gradient.spectra, self.gradient.by_length, &mut self.force);

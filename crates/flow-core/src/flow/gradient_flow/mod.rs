@@ -69,6 +69,8 @@ pub struct GradientFlow {
     frozen: CurveFields,
     frozen_mobility: Box<dyn NormalMobility>,
     frozen_fault: Option<MobilityError>,
+    /// Whether there is a linearisation.
+    linearised: bool,
     /// Minus the tension at the linearisation.
     frozen_stretching: Vec<f64>,
     gradient: IntrinsicGradient,
@@ -79,6 +81,9 @@ pub struct GradientFlow {
 
 impl GradientFlow {
     /// The flow of `energy` under the mobilities, one density mobility per density.
+    ///
+    /// # Panics
+    /// If there are more or fewer of them.
     #[must_use]
     pub fn new(
         mut map: FlowMap,
@@ -100,6 +105,7 @@ impl GradientFlow {
             frozen: current.clone(),
             frozen_mobility: normal_mobility.boxed_clone(),
             frozen_fault: None,
+            linearised: false,
             frozen_stretching: vec![0.0; layout.nodes()],
             current,
             current_mobility: normal_mobility,
@@ -181,6 +187,7 @@ impl GradientFlow {
         self.frozen.set(state, grid, derivative);
         self.energy.linearise(&self.frozen, &mut self.gradient);
         self.frozen_fault = self.frozen_mobility.set(&self.frozen).err();
+        self.linearised = true;
         self.freeze_tension();
         self.hold_area();
     }
@@ -198,12 +205,20 @@ impl GradientFlow {
     }
 
     /// Product of the frozen Hess `𝓕_h` with the spectral `v`, at [`GradientFlow::gradient`].
+    ///
+    /// # Panics
+    /// Before [`GradientFlow::spectral_linearise`].
     pub fn spectral_hessian_product(&mut self, v: &[f64]) {
+        assert!(self.linearised, "products are those of a linearisation, and there is none");
         self.energy.hessian_product(&self.frozen, v, &mut self.gradient);
     }
 
     /// 𝓚 applied to the spectral dual vector `dual`, at the frozen state.
+    ///
+    /// # Panics
+    /// Before [`GradientFlow::spectral_linearise`].
     pub fn spectral_mobility(&mut self, dual: &[f64], out: &mut [f64]) {
+        assert!(self.linearised, "𝓚 is that at a linearisation, and there is none");
         let layout = self.spectral_layout();
         self.gradient.spectra.copy_from_slice(layout.spectra(dual));
         self.gradient.by_length = dual[layout.length_index()];

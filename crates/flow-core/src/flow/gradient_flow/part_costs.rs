@@ -3,7 +3,7 @@
 
 use std::time::Instant;
 
-use super::GradientFlow;
+use super::{GradientFlow, drive};
 use crate::flow::energy_sum::TermCost;
 
 /// Seconds of one part in one evaluation of each kind.
@@ -56,8 +56,9 @@ impl GradientFlow {
             density = density.min(seconds(|| _ = self.add_density_dissipation(0.0)));
             let Self { current, current_mobility, force, velocity, energy, gradient, .. } = self;
             // Where the mobility is not defined, that it finds so is all that it costs.
-            set = set.min(seconds(|| _ = current_mobility.set(current)));
-            apply = apply.min(seconds(|| current_mobility.apply(current, force, velocity)));
+            let mut fault = None;
+            set = set.min(seconds(|| fault = current_mobility.set(current).err()));
+            apply = apply.min(seconds(|| drive(current_mobility.as_mut(), fault, current, force, velocity)));
             energy.measure_terms(current, state, gradient, &mut terms);
         }
         let [set, apply, density] = [set, apply, density].map(|least| (least - idle).max(0.0));

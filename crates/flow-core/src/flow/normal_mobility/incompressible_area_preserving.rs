@@ -4,9 +4,8 @@ use super::{Incompressible, Kept, MobilityError, NormalMobility};
 use crate::flow::CurveFields;
 use crate::operators::Derivative;
 
-/// Mean square of the part of 1 off κ below which the curve is a circle as far as its length and its area tell, whose L² − 4πA is then
-/// rounding: 1 is in the kernel of 𝓘, and what is left of it would be a direction of noise.
-const ROUND: f64 = 1e-13;
+/// Mean square of the part of 1 off κ below which the curve is a circle to rounding: 1 is in the kernel of 𝓘.
+const ROUND: f64 = 1e-24;
 
 /// V = 𝓘f − (⟨𝓘f, 1⟩/⟨𝓘1, 1⟩) 𝓘1. On a circle 𝓘1 = 0, and 𝓘 keeps the area by itself.
 #[derive(Clone, Debug)]

@@ -14,6 +14,9 @@ pub enum ShapeError {
     /// A radius, semi-axis or size that is not a length.
     #[error("the size of the curve is {value}: radius, semi-axes and size must be positive and finite")]
     SizeNotPositive { value: f64 },
+    /// A formula of the curve has a second variable.
+    #[error("the formula `{text}` of the curve depends on more than one variable: write it in phi alone")]
+    OtherVariables { text: String },
     /// The formula of the curve cannot be differentiated.
     #[error(transparent)]
     Expression(#[from] ExpressionError),

@@ -90,10 +90,18 @@ impl Shape {
                 [1.0; 2],
             ),
             Self::FigureEight { size } => scaled("sin(phi)", "sin(phi)*cos(phi)", [*size; 2]),
-            Self::Polar { r } => Ok(Curve::polar(r)?),
-            Self::Parametric { x, y } => Ok(Curve::cartesian(x, y)?),
+            Self::Polar { r } => Ok(Curve::polar(of_phi(r)?)?),
+            Self::Parametric { x, y } => Ok(Curve::cartesian(of_phi(x)?, of_phi(y)?)?),
             Self::Points(points) => Ok(Curve::Interpolated(Interpolated::new(points)?)),
         }
+    }
+}
+
+/// A formula that depends on φ alone.
+fn of_phi(formula: &Expression) -> Result<&Expression, ShapeError> {
+    match formula.arity() {
+        0 | 1 => Ok(formula),
+        _ => Err(ShapeError::OtherVariables { text: formula.text().to_owned() }),
     }
 }
 

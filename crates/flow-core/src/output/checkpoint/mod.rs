@@ -5,7 +5,7 @@ mod lock;
 mod pair;
 mod saving;
 
-pub use format::{Checkpoint, decode, encode};
+pub use format::{Checkpoint, SceneTexts, decode, encode};
 pub use lock::Lock;
 pub use pair::{Found, Pair, read};
 pub use saving::{Saving, run_saving};

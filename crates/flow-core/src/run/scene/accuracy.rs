@@ -4,6 +4,7 @@ use schemars::{JsonSchema, json_schema};
 use serde::{Serialize, Serializer};
 
 use super::choice::names;
+use super::count::serialize_count;
 use super::entry::Entry;
 use super::error::{Bound, Fault};
 use super::flow::NormalMobility;
@@ -150,7 +151,7 @@ impl Serialize for Nodes {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match *self {
             Self::Auto => serializer.serialize_str("auto"),
-            Self::Count(count) => serializer.serialize_u64(count as u64),
+            Self::Count(ref count) => serialize_count(count, serializer),
         }
     }
 }

@@ -3,6 +3,7 @@
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
+use std::sync::Arc;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -24,6 +25,8 @@ use crate::flow::MetricRole;
 pub const MAX_SCENE_BYTES: usize = 1 << 20;
 
 /// A scene that has been checked: everything that a run needs to know.
+///
+/// Its values may be changed: a run checks them anew, as [`Scene::checked`] does, and its record holds the scene as it was run.
 ///
 /// ```
 /// use flow_core::run::Scene;
@@ -70,6 +73,9 @@ pub struct Scene {
     pub output: Output,
     #[serde(skip)]
     text: String,
+    /// The values that were checked, to tell those that were changed since; none in that copy itself.
+    #[serde(skip)]
+    as_checked: Option<Arc<Scene>>,
 }
 
 impl Scene {
@@ -124,20 +130,77 @@ impl Scene {
         overrides::apply(document.get_mut(), &changes, &report);
         let scene = read(Section::new(&report, String::new(), 0..0, document.get_ref()));
         match (report.into_error(), scene) {
-            (None, Some(scene)) if changes.is_empty() => Ok(Self { text: text.to_owned(), ..scene }),
-            (None, Some(scene)) => Ok(Self { text: written_out(document), ..scene }),
+            (None, Some(scene)) if changes.is_empty() => Ok(scene.with_text(text.to_owned()).sealed()),
+            (None, Some(scene)) => Ok(scene.with_text(written_out(document)).sealed()),
             (Some(error), _) => Err(error),
             (None, None) => unreachable!("a scene that cannot be read has a problem"),
         }
     }
 
-    /// The scene as given: verbatim, or, if values were changed, as TOML with the changes.
+    /// The scene itself if it holds what was read; else it is checked as if [`Scene::to_toml`] had been read, which is its
+    /// text from then on. What makes a run of a scene begins with this.
+    ///
+    /// ```
+    /// use flow_core::run::Scene;
+    /// use flow_core::run::scene::Nodes;
+    ///
+    /// let (_, text) = Scene::shipped().iter().find(|(name, _)| *name == "circle").unwrap();
+    /// let mut scene = Scene::parse(text, "circle")?;
+    /// scene.accuracy.nodes = Nodes::Count(64);
+    /// scene.time.end = f64::NAN;
+    /// let error = scene.clone().checked().unwrap_err();
+    /// assert_eq!(error.problems()[0].key, "time.end");
+    ///
+    /// scene.time.end = 0.5;
+    /// let scene = scene.checked()?;
+    /// assert!(scene.text().contains("nodes = 64"));
+    /// # Ok::<(), flow_core::run::SceneError>(())
+    /// ```
+    /// # Errors
+    /// [`SceneError`]: with the changes it is no scene; problems stand at their keys.
+    pub fn checked(self) -> Result<Self, SceneError> {
+        if self.holds_what_was_read() {
+            return Ok(self);
+        }
+        Self::parse(&self.to_toml(), "the scene as changed").map_err(SceneError::at_keys)
+    }
+
+    /// Whether no value was changed since the scene was read.
+    pub(super) fn holds_what_was_read(&self) -> bool {
+        self.as_checked.as_deref().is_some_and(|read| self.has_values_of(read))
+    }
+
+    /// Whether all values, which is all but the text, are those of `other`.
+    fn has_values_of(&self, other: &Self) -> bool {
+        let Self { title, curve, density, energy, flow, time, accuracy, output, text: _, as_checked: _ } =
+            self;
+        (title, curve, density, energy) == (&other.title, &other.curve, &other.density, &other.energy)
+            && (flow, time, accuracy, output) == (&other.flow, &other.time, &other.accuracy, &other.output)
+    }
+
+    /// The same scene, with the values that it has now for checked.
+    fn sealed(self) -> Self {
+        let values = Self { text: String::new(), as_checked: None, ..self.clone() };
+        Self { as_checked: Some(Arc::new(values)), ..self }
+    }
+
+    /// The same scene after the library has changed values by itself, to such as a run allows though a file might not say them:
+    /// it is not checked again.
+    pub(crate) fn renewed(self) -> Self {
+        let text = self.to_toml();
+        self.with_text(text).sealed()
+    }
+
+    /// The scene as given: verbatim, or, if values were changed as it was read or in [`Scene::checked`], as TOML with the changes.
     #[must_use]
     pub fn text(&self) -> &str {
         &self.text
     }
 
     /// The scene as understood: TOML with every default filled in. Parsing it gives the same values.
+    ///
+    /// # Panics
+    /// Never: TOML has all that a scene can hold, changed or not.
     #[must_use]
     pub fn to_toml(&self) -> String {
         toml::to_string(self).expect("every scene can be written as TOML")
@@ -220,5 +283,6 @@ fn read(mut root: Section<'_>) -> Option<Scene> {
         accuracy,
         output: output?,
         text,
+        as_checked: None,
     })
 }

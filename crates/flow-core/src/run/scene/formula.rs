@@ -43,8 +43,12 @@ impl Formula {
     }
 
     /// Values of a formula of one variable at `points`.
+    ///
+    /// # Panics
+    /// If it depends on a second variable.
     #[must_use]
     pub fn values(&self, points: &[f64]) -> Vec<f64> {
+        assert!(self.expression.arity() <= 1, "`{}` is no formula of one variable", self.text());
         let program = Program::compile(&[&self.expression]);
         let (mut values, mut scratch) = (vec![0.0; points.len()], vec![0.0; program.scratch_len()]);
         program.evaluate(&[points], &mut [&mut values], &mut scratch);

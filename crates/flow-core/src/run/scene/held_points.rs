@@ -9,19 +9,21 @@ impl Scene {
     /// `source_name` is its name in messages.
     ///
     /// # Errors
-    /// [`SceneError`] if so many points make the text too large.
+    /// [`SceneError`] if so many points make the text too large, or as [`Scene::checked`] does.
     pub fn self_contained(&self, source_name: &str) -> Result<Self, SceneError> {
-        if names_a_file(self.text()) {
-            with_points(self.text(), &self.curve, source_name)
+        let scene = self.clone().checked()?;
+        if names_a_file(scene.text()) {
+            with_points(scene.text(), &scene.curve, source_name)
         } else {
-            Ok(self.clone())
+            Ok(scene)
         }
     }
 
-    /// Whether the points of its curve stand in its text.
+    /// Whether the points of its curve stand in its text, or will, once it is checked.
     #[must_use]
     pub fn holds_points(&self) -> bool {
-        matches!(self.curve.shape, Shape::Points { .. }) && !names_a_file(self.text())
+        let written = !self.holds_what_was_read() || !names_a_file(self.text());
+        matches!(self.curve.shape, Shape::Points { .. }) && written
     }
 }
 

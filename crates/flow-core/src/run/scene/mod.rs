@@ -23,6 +23,7 @@
 
 mod accuracy;
 mod choice;
+mod count;
 mod curve;
 mod density;
 mod document;

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::choice::names;
+use super::count::serialize_count;
 use super::entry::Entry;
 use super::error::{Bound, Fault};
 use super::keywords::{Each, Entries, Within};
@@ -33,6 +34,7 @@ pub enum Frames {
     /// A number of frames over the whole run.
     Spaced {
         /// How many, at least 1; 200 unless given.
+        #[serde(serialize_with = "serialize_count")]
         #[schemars(default = "default_frames", transform = Within(COUNT))]
         frames: usize,
         /// How they are spread over the time.

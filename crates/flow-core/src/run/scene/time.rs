@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::count::serialize_given_count;
 use super::error::Bound;
 use super::keywords::Within;
 use super::section::Section;
@@ -26,7 +27,7 @@ pub struct Time {
     #[schemars(transform = Within(EQUILIBRIUM_TOLERANCE))]
     pub equilibrium_tolerance: Option<f64>,
     /// Accepted steps after which the run stops, at least 1; unlimited unless given.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "serialize_given_count")]
     #[schemars(transform = Within(STEPS))]
     pub max_steps: Option<u64>,
 }

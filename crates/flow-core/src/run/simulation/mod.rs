@@ -32,6 +32,9 @@ use crate::run::setup_error::SetupError;
 /// Part of the tolerance by which the energy balance of one step may be off.
 pub const ENERGY_TOLERANCE_SHARE: f64 = 0.01;
 
+/// Times that lie less than this ahead count as reached: no step is so short.
+const NEAREST: f64 = 1e-306;
+
 /// A scene under way.
 ///
 /// ```
@@ -165,13 +168,13 @@ impl Simulation {
     }
 
     /// At most `steps` steps until `time`, where the last of them ends, or until the run stops. Returns whether there is
-    /// more to do.
+    /// more to do. A time less than 1e-306 ahead counts as reached.
     pub fn run_until(&mut self, time: f64, steps: u64, observer: &mut dyn Observer) -> bool {
         self.until = time;
         self.integration.set_end(self.next_stop());
         let last = self.counters().steps.saturating_add(steps);
         let mut clock = Instant::now();
-        while self.time() < time && self.counters().steps < last && self.stopped.is_none() {
+        while time - self.time() >= NEAREST && self.counters().steps < last && self.stopped.is_none() {
             clock = self.step_since(clock, observer);
         }
         self.until = f64::INFINITY;

@@ -23,13 +23,15 @@ use crate::run::setup_error::SetupError;
 /// Steps that are logged without allocating; beyond, the room doubles now and then.
 const STEP_ROOM: usize = 4096;
 impl Simulation {
-    /// Builds what the scene names; saves the initial frame.
+    /// Builds what the scene names; saves the initial frame. Values of the scene that were changed since it was read are checked
+    /// first, as [`Scene::checked`] does.
     ///
     /// # Errors
     /// [`SetupError`] if the scene makes no initial state.
     pub fn new(scene: &Scene) -> Result<Self, SetupError> {
         let clock = Instant::now();
-        let mut setup = Setup::new(scene)?;
+        let scene = &scene.clone().checked()?;
+        let mut setup = Setup::of(scene)?;
         let (energy, dissipation, integral_rates) = setup.finish()?;
         let Setup {
             mut membrane,

@@ -2,7 +2,7 @@
 
 use super::super::observer::Observer;
 use super::super::record::{Frame, Record, StopReason};
-use super::super::scene::{Frames, Output, Scene};
+use super::super::scene::{Frames, Nodes, Output, Scene};
 use super::super::simulation::run;
 use super::error::RunError;
 use super::span::{Ending, Span};
@@ -24,15 +24,16 @@ pub(super) struct Outcome {
     pub seconds: f64,
 }
 
-/// `scene` at another tolerance, to the end of `span` and with frames at its times only.
-pub(super) fn rung(scene: &Scene, tolerance: f64, span: &Span) -> Scene {
+/// `scene` at another tolerance and on other nodes, to the end of `span` and with frames at its times only.
+pub(super) fn rung(scene: &Scene, tolerance: f64, nodes: Nodes, span: &Span) -> Scene {
     let mut rung = scene.clone();
     rung.accuracy.tolerance = tolerance;
+    rung.accuracy.nodes = nodes;
     rung.time.end = span.end;
     rung.time.stop_at_equilibrium = false;
     rung.flow.stop_on_contact = false;
     rung.output = Output { frames: Frames::At { times: vec![span.halfway] }, fields: Vec::new() };
-    rung
+    rung.renewed()
 }
 
 /// Runs the scene of [`rung`] once.

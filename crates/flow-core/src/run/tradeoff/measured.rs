@@ -107,12 +107,12 @@ pub fn tradeoff(
     ladder: &Ladder,
     observer: &mut dyn LadderObserver,
 ) -> Result<Tradeoff, TradeoffError> {
+    let scene = &scene.clone().checked().map_err(|error| TradeoffError::Setup(error.into()))?;
     let span = scout(scene, observer)?;
     let (tolerance, at_rounding) = ladder.reference();
     let nodes = reference_nodes(scene, ladder)?;
     observer.before_run(&Leg::Reference { tolerance, nodes });
-    let mut tight = leg::rung(scene, tolerance, &span);
-    tight.accuracy.nodes = nodes;
+    let tight = leg::rung(scene, tolerance, nodes, &span);
     let truth = leg::once(&tight, observer).map_err(|error| match error {
         RunError::Interrupted => TradeoffError::Interrupted,
         source => TradeoffError::Reference { tolerance, nodes, source },
@@ -139,7 +139,7 @@ fn scout(scene: &Scene, observer: &mut dyn LadderObserver) -> Result<Span, Trade
         source @ RunError::Failed { .. } => TradeoffError::Scout { tolerance, source },
     };
     let observer: &mut dyn Observer = observer;
-    let record = run(&scout, observer).map_err(TradeoffError::Setup)?;
+    let record = run(&scout.renewed(), observer).map_err(TradeoffError::Setup)?;
     let ending = leg::ending(&record, scene.time.end).map_err(failed)?;
     let end = record.frames[record.frames.len() - 1].time;
     Ok(Span { halfway: halfway(&record), end, ending })
@@ -172,7 +172,8 @@ fn climb(
             Err(RunError::Interrupted)
         } else {
             observer.before_run(&Leg::Rung { tolerance, number: index + 1, count });
-            leg::timed(&leg::rung(scene, tolerance, span), observer).map(|run| measured(&run, truth))
+            let rung = leg::rung(scene, tolerance, scene.accuracy.nodes, span);
+            leg::timed(&rung, observer).map(|run| measured(&run, truth))
         };
         interrupted = matches!(outcome, Err(RunError::Interrupted));
         if let (Some(nodes), Ok(rung)) = (ladder.reference_nodes(), &outcome)

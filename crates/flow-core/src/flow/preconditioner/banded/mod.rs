@@ -35,7 +35,7 @@ const FEWEST_NODES: usize = 12;
 const FEWEST_NODES_OF_SURFACE_DIFFUSION: usize = 15;
 
 /// A banded approximate inverse acting on spectra.
-pub trait Banded: Debug + Send {
+pub trait Banded: Debug + Send + Sync {
     /// Number of modes treated.
     fn modes(&self) -> usize;
     /// Factorises at the frozen state.
