@@ -37,11 +37,54 @@ export function keptPage(name) {
   return join(PAGES, `${name}.html`);
 }
 
+/** Keeps where every canvas has its texts since it was cleared, as boxes in its pixels. */
+function spyOnTexts() {
+  const { fillText, clearRect } = CanvasRenderingContext2D.prototype;
+  const write = (pen, text, x, y) => {
+    const { width } = pen.measureText(text);
+    const left = { left: 0, center: width / 2, right: width }[pen.textAlign];
+    const top = { top: 0, middle: 6, bottom: 12 }[pen.textBaseline];
+    const corners = [[x - left, y - top], [x - left + width, y - top + 12]].map(([a, b]) => pen.getTransform().transformPoint({ x: a, y: b }));
+    const [xs, ys] = ["x", "y"].map((axis) => corners.map((corner) => corner[axis]).sort((one, other) => one - other));
+    (pen.canvas.texts ??= []).push({ text, left: xs[0], right: xs[1], top: ys[0], bottom: ys[1] });
+  };
+  CanvasRenderingContext2D.prototype.clearRect = function (...box) { this.canvas.texts = []; return clearRect.apply(this, box); };
+  CanvasRenderingContext2D.prototype.fillText = function (...text) { write(this, ...text); return fillText.apply(this, text); };
+}
+
+/** The texts of all canvases that stick out of theirs or lie on another. */
+export async function illegible(page) {
+  await drawn(page);
+  return page.locator("canvas").evaluateAll((all) => all.flatMap((canvas) => canvas.texts.flatMap((one, k) => {
+    const out = one.left < -0.5 || one.right > canvas.width + 0.5 || one.top < -0.5 || one.bottom > canvas.height + 0.5;
+    const under = canvas.texts.slice(0, k).find((other) => Math.max(one.left, other.left) < Math.min(one.right, other.right) &&
+      Math.max(one.top, other.top) < Math.min(one.bottom, other.bottom));
+    return out ? [`${canvas.id}: ${one.text} sticks out`] : under ? [`${canvas.id}: ${one.text} on ${under.text}`] : [];
+  })));
+}
+
+/** The texts of a canvas. */
+export async function textsOf(page, selector) {
+  await drawn(page);
+  return page.locator(selector).evaluate((canvas) => canvas.texts.map(({ text }) => text));
+}
+
+/** How many pixels of some columns of a canvas, from one part of its width to another, have nearly this colour. */
+export async function inColour(page, selector, [red, green, blue], from, to) {
+  const columns = await page.locator(selector).evaluate((canvas) => canvas.width);
+  return over(page, selector, `(sum, data, k) => {
+    const place = ((k / 4) % ${columns}) / ${columns};
+    const off = Math.abs(data[k] - ${red}) + Math.abs(data[k + 1] - ${green}) + Math.abs(data[k + 2] - ${blue});
+    return sum + (place > ${from} && place < ${to} && data[k + 3] > 200 && off < 60 ? 1 : 0);
+  }`);
+}
+
 /** Opens a page; `complaints` fills with all that it says, asks for or pops up. */
 export async function open(browser, path, options = {}) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, ...options });
   const address = pathToFileURL(path).href;
   const complaints = [];
+  await page.addInitScript(spyOnTexts);
   page.on("console", (message) => complaints.push(`console: ${message.text()}`));
   page.on("pageerror", (error) => complaints.push(`error: ${error.message}`));
   page.on("dialog", (dialog) => { complaints.push(`dialog: ${dialog.message()}`); dialog.dismiss(); });

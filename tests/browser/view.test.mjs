@@ -1,7 +1,7 @@
 // The page of `curveflow view` in a browser, opened from a file.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { drawn, frameShown, keptPage, launch, ofTheCurve, open, pageOf, pixels } from "./support.mjs";
+import { drawn, frameShown, illegible, inColour, keptPage, launch, ofTheCurve, open, pageOf, pixels, textsOf } from "./support.mjs";
 
 const TRACE = "#traces canvas";
 let browser, threeFold;
@@ -169,13 +169,63 @@ for (const width of [320, 390, 700, 1600]) {
 }
 
 onPage("hostile texts are shown, not obeyed", () => keptPage("hostile"), async (page) => {
-  assert.equal(await page.locator("script").count(), 6);
+  assert.equal(await page.locator("script").count(), 7);
   const start = "</title></script><!--<script>alert(1)</script>";
   assert.ok((await page.title()).startsWith(start));
   for (const id of ["#title", "#scene", "#resolved-scene"]) assert.ok((await page.locator(id).textContent()).startsWith(start), id);
   assert.ok((await page.locator("#tables").textContent()).includes(`mass of ${start}`));
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth));
 });
+
+for (const name of ["near", "far", "units", "late"]) {
+  for (const width of [390, 1280]) {
+    onPage(`${name}, ${width} pixels: labels are whole and apart`, () => keptPage(name), async (page) => {
+      for (const key of ["Home", "End"]) {
+        await page.keyboard.press(key);
+        assert.deepEqual(await illegible(page), []);
+      }
+    }, { viewport: { width, height: 900 } });
+  }
+}
+
+onPage("a curve far from the origin is drawn as any other, and says where it is", () => keptPage("far"), async (page) => {
+  await page.keyboard.press("End");
+  const texts = await textsOf(page, "#curve");
+  assert.ok(texts.includes("x − 1048576") || texts.some((text) => /^x − 10485\d\d$/.test(text)), texts.join("; "));
+  await pointAtCurve(page);
+  const text = await page.locator("#tip").textContent();
+  const position = text.match(/position([\d.]+), ([\d.]+)curvature/);
+  assert.ok(position, text);
+  for (const value of position.slice(1)) assert.ok(Math.abs(Number(value) - 1048576) < 5, text);
+});
+
+test("few nodes are drawn round, and as many far from the origin as near it", async () => {
+  const counts = [];
+  for (const name of ["near", "far"]) {
+    const { page } = await open(browser, keptPage(name));
+    // Beside the curve nothing differs but its labels.
+    await page.evaluate(() => { CanvasRenderingContext2D.prototype.lineTo = new Proxy(CanvasRenderingContext2D.prototype.lineTo, {
+      apply(lineTo, pen, at) { if (pen.canvas.id === "curve") window.sides = (window.sides ?? 0) + 1; return Reflect.apply(lineTo, pen, at); },
+    }); });
+    await page.keyboard.press("End");
+    await drawn(page);
+    counts.push(await page.evaluate(() => window.sides));
+    await page.close();
+  }
+  assert.ok(counts[0] > 3 * 256, `${counts}`);
+  assert.equal(counts[0], counts[1]);
+});
+
+onPage("no line leads from the start to a late frame in log time", () => keptPage("late"), async (page) => {
+  const [energy, length] = [[0, 114, 178], [213, 94, 0]];
+  const early = (colour) => inColour(page, "#history", colour, 0.25, 0.7);
+  assert.ok(await early(energy) > 100, "the steps have energies early");
+  assert.equal(await early(length), 0, "nobody knows the length there");
+  assert.ok(await page.locator("#at-start").isVisible());
+  await page.locator("#log-time").uncheck();
+  assert.ok(await early(length) > 100);
+  assert.ok(await page.locator("#at-start").isHidden());
+}, { colorScheme: "light" });
 
 onPage("what is not a number is a gap", () => keptPage("gaps"), async (page) => {
   const whole = await ofTheCurve(page);

@@ -48,6 +48,35 @@ fn large_curves_make_small_pictures() {
 }
 
 #[test]
+fn what_is_constant_but_for_rounding_has_one_colour() {
+    let mut record = synthetic::record(2, 64, &["protein"]);
+    for (i, rho) in record.frames[1].density[0].iter_mut().enumerate() {
+        *rho = 0.763 + 1e-15 * (i % 7) as f64;
+    }
+    let html = card(&record);
+    assert!(html.contains(">0.725<") && html.contains(">0.801<"), "the ends of the bar are apart");
+    assert_eq!(html.matches("<path").count(), 2, "the initial curve, and the final one in one piece");
+}
+
+#[test]
+fn the_ends_of_the_colours_are_told_apart() {
+    let mut record = synthetic::record(2, 64, &["protein"]);
+    for (i, rho) in record.frames[1].density[0].iter_mut().enumerate() {
+        *rho = if i == 0 { 0.500_01 } else { 0.500_03 };
+    }
+    record.frames[1].position[1] = [f64::NAN; 2]; // the values as they are
+    let html = card(&record);
+    assert!(html.contains(">0.50001<") && html.contains(">0.50003<"));
+}
+
+#[test]
+fn few_nodes_are_drawn_round() {
+    let card = card(&synthetic::record(2, 16, &["protein"]));
+    let initial = card.split_once("d=\"").and_then(|(_, rest)| rest.split_once('"')).expect("a path").0;
+    assert_eq!(initial.matches(['M', 'L']).count(), 128);
+}
+
+#[test]
 fn odd_records_have_cards() {
     let mut no_frames = synthetic::record(2, 16, &["protein"]);
     no_frames.frames.clear();

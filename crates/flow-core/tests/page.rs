@@ -36,7 +36,7 @@ fn summary(page: &str) -> &str {
 /// The page without its data: markup, style and program.
 fn frame_of(page: &str) -> String {
     let mut rest = page.to_owned();
-    for id in ["summary", "positions", "fields", "values", "steps"] {
+    for id in ["summary", "centres", "positions", "fields", "values", "energies"] {
         let data = content(page, &format!("id=\"{id}\">"), "</script").to_owned();
         rest = rest.replace(&format!("id=\"{id}\">{data}<"), &format!("id=\"{id}\"><"));
     }
@@ -89,8 +89,8 @@ fn the_page_asks_for_nothing_from_outside() {
     ] {
         assert!(!page.contains(word), "{word}");
     }
-    // The five data elements, and the program, which no word of its own may end.
-    assert_eq!(page.matches("</script").count(), 6);
+    // The six data elements, and the program, which no word of its own may end.
+    assert_eq!(page.matches("</script").count(), 7);
 }
 
 #[test]
@@ -100,8 +100,8 @@ fn what_is_not_a_number_is_kept_as_such() {
     record.frames[0].energy = f64::NAN;
     let page = html(&record).unwrap();
     let positions = content(&page, "id=\"positions\">", "</script");
-    // Bytes 00 00 c0 7f (NaN) and 00 00 80 3f (1) after the zero that ends the first frame.
-    assert!(positions.ends_with("AAAAAMB/AACAPw=="), "{positions}");
+    // One node is its own middle: three zeros, after bytes 00 00 c0 7f (NaN).
+    assert_eq!(positions, "AAAAAAAAAAAAAMB/AAAAAA==");
     assert!(summary(&page).contains(r#"["energy, first → last",[null,"#));
 }
 
@@ -122,21 +122,66 @@ fn one_frame_is_a_page() {
     record.steps = StepLog::default();
     let page = kept(&record, "one-frame");
     assert!(summary(&page).contains(r#""frames":1,"nodes":64,"#));
-    assert_eq!(content(&page, "id=\"steps\">", "</script"), "");
+    assert!(summary(&page).contains(r#""everyStep":0,"#));
+    assert_eq!(content(&page, "id=\"energies\">", "</script").len(), 24);
 }
 
-/// 16 (d + 2) n / 3 + 32 h / 3 bytes per frame, as the documentation of the module says.
+/// A record far from the origin, by a power of two, and one that is not: the same curves to the last digit.
+#[test]
+fn positions_are_kept_from_the_middle_of_the_curve() {
+    let far = |by: f64| {
+        let mut record = synthetic::record(3, 24, &[]);
+        for x in record.frames.iter_mut().flat_map(|frame| frame.position.iter_mut().flatten()) {
+            *x = (1024.0 * *x).round() / 1024.0 + by;
+        }
+        record
+    };
+    let (near, far) = (kept(&far(0.0), "near"), kept(&far(f64::from(1 << 20)), "far"));
+    let positions = |page| content(page, "id=\"positions\">", "</script").to_owned();
+    assert_eq!(positions(&near), positions(&far));
+    assert_ne!(content(&near, "id=\"centres\">", "</script"), content(&far, "id=\"centres\">", "</script"));
+}
+
+/// Large and small units, whose labels would be long: what is shown of them is for the tests in a browser.
+#[test]
+fn units_may_be_any() {
+    let mut record = synthetic::record(3, 24, &["protein"]);
+    for frame in &mut record.frames {
+        frame.position.iter_mut().flatten().for_each(|x| *x *= 1e6);
+        frame.density[0].iter_mut().for_each(|rho| *rho *= 1e6);
+        frame.curvature.iter_mut().for_each(|kappa| *kappa = 0.5 + 1e-5 * *kappa);
+        (frame.length, frame.energy) = (1e6 * frame.length, 1.2708 + 1e-5 * frame.energy);
+    }
+    record.steps = StepLog::default();
+    kept(&record, "units");
+}
+
+/// Steps from 1e-8 on, three frames late: what is drawn of them is for the tests in a browser.
+#[test]
+fn energies_are_those_of_steps_and_frames() {
+    let mut record = synthetic::record(4, 24, &[]);
+    for (k, frame) in record.frames.iter_mut().enumerate() {
+        (frame.time, frame.length) = (0.1 * k as f64, 8.0 - k as f64);
+    }
+    record.steps.time = (0..40).map(|k| 1e-8 * 1.5_f64.powi(k)).collect();
+    record.steps.energy = vec![7.0; 40];
+    let page = kept(&record, "late");
+    let energies = content(&page, "id=\"energies\">", "</script");
+    assert_eq!(energies.len(), ((40_usize + 4) * 16).div_ceil(3) * 4);
+    assert!(summary(&page).contains(r#""everyStep":1,"#));
+}
+
+/// (16 (d + 2) n + 32 h + 128) / 3 bytes per frame, as the documentation of the module says.
 #[test]
 fn a_frame_takes_as_many_bytes_as_stated() {
     let nodes = 300;
     let size = |frames| html(&synthetic::record(frames, nodes, &["protein"])).unwrap().len();
     // Curvature, metric, normal velocity, one density, one field; eight values, two terms, a mass, a distance.
     let (fields, values) = (5, 12);
-    let stated = 16 * (fields + 2) * nodes / 3 + 32 * values / 3;
-    // The synthetic run has a step for every frame.
-    let step = 64 / 3;
+    let stated = (16 * (fields + 2) * nodes + 32 * values + 128) / 3;
+    // The synthetic run has its steps at the times of its frames.
     let measured = (size(103) - size(13)) / 90;
-    assert!(measured.abs_diff(stated + step) <= 2, "{measured} bytes, stated {stated}");
+    assert!(measured.abs_diff(stated) <= 2, "{measured} bytes, stated {stated}");
     let mut bare = synthetic::record(1, 2, &[]);
     bare.scene.clear();
     assert!(html(&bare).unwrap().len() < 100_000);

@@ -86,6 +86,108 @@ fn odd_records_are_drawn() {
     assert_inside(&draw(&record, "odd"));
 }
 
+/// Place, direction and content of the texts of an SVG document: the widths of a digit are 0.64 of the size.
+struct Text {
+    left: f64,
+    right: f64,
+    top: f64,
+    bottom: f64,
+    content: String,
+}
+
+fn texts(svg: &str) -> Vec<Text> {
+    let of = |part: &str| {
+        let (tag, rest) = part.split_once('>').unwrap();
+        let attribute = |name: &str| {
+            let value =
+                tag.split_once(&format!(" {name}=\"")).map(|(_, rest)| rest.split('"').next().unwrap());
+            value.unwrap_or_default().to_owned()
+        };
+        let number = |name: &str| attribute(name).parse::<f64>().unwrap();
+        let content = rest.split('<').next().unwrap().trim().to_owned();
+        let (x, y, size) = (number("x"), number("y"), number("font-size"));
+        let length = 0.6 * size * content.chars().count() as f64;
+        // Rotated text is centred beside its anchor.
+        let (left, right, top, bottom) =
+            match (attribute("transform").is_empty(), attribute("text-anchor").as_str()) {
+                (false, _) if attribute("transform").contains("270") => {
+                    (x, x + size, y - length / 2.0, y + length / 2.0)
+                }
+                (false, _) => (x - size, x, y - length / 2.0, y + length / 2.0),
+                (_, "start") => (x, x + length, y - size / 2.0, y + size / 2.0),
+                (_, "end") => (x - length, x, y - size / 2.0, y + size / 2.0),
+                _ => (x - length / 2.0, x + length / 2.0, y - size / 2.0, y + size / 2.0),
+            };
+        Text { left, right, top, bottom, content }
+    };
+    svg.split("<text").skip(1).map(of).collect()
+}
+
+/// No text lies on another one or leaves the page.
+fn assert_legible(svg: &str) {
+    let texts = texts(svg);
+    for (k, one) in texts.iter().enumerate() {
+        assert!(one.left >= 0.0 && one.right <= 6400.0, "{} from {} to {}", one.content, one.left, one.right);
+        for other in &texts[..k] {
+            let across = one.left.max(other.left) < one.right.min(other.right);
+            let along = one.top.max(other.top) < one.bottom.min(other.bottom);
+            assert!(!(across && along), "{:?} lies on {:?}", one.content, other.content);
+        }
+    }
+}
+
+/// `record` with other positions, curvatures and lengths.
+fn changed(mut record: Record, position: impl Fn(f64) -> f64, value: impl Fn(f64) -> f64) -> Record {
+    for frame in &mut record.frames {
+        frame.position.iter_mut().flatten().for_each(|x| *x = position(*x));
+        frame.curvature.iter_mut().for_each(|kappa| *kappa = value(*kappa));
+        (frame.length, frame.energy) = (value(frame.length), value(frame.energy));
+    }
+    record.steps = StepLog::default();
+    record
+}
+
+#[test]
+fn labels_and_names_of_axes_stand_apart() {
+    let record = || synthetic::record(5, 64, &[]);
+    assert_legible(&draw(&record(), "plain"));
+    let far = draw(&changed(record(), |x| x + 1e6, |y| y), "far");
+    assert_legible(&far);
+    assert!(far.contains("x − 1000000") && far.contains("y − 1000000"));
+    let flat = draw(&changed(record(), |x| 1e-5 * x, |y| 12.5664 + 1e-5 * y), "flat");
+    assert_legible(&flat);
+    assert!(flat.contains("length − 12.56"));
+    assert_legible(&draw(&changed(record(), |x| 1e8 * x, |y| 0.5884 + 1e-3 * y), "digits"));
+}
+
+#[test]
+fn a_short_run_in_tiny_units_has_times() {
+    let mut record = synthetic::record(20, 64, &[]);
+    for (k, frame) in record.frames.iter_mut().enumerate() {
+        frame.time = 1e-24 * k as f64;
+    }
+    record.steps = StepLog::default();
+    let svg = draw(&record, "tiny");
+    assert!(svg.contains("10⁻²⁴") && svg.contains("10⁻²³"));
+}
+
+#[test]
+fn few_nodes_are_drawn_round() {
+    let sides =
+        |nodes| draw(&synthetic::record(2, nodes, &["protein"]), "round").matches("<polyline").count();
+    assert!(sides(12) > 150, "{} sides", sides(12));
+}
+
+#[test]
+fn a_constant_state_is_a_dot() {
+    let mut record = synthetic::record(2, 64, &["protein"]);
+    let dots = |record: &Record| draw(record, "constant").matches(" r=\"28\"").count();
+    let without = dots(&record);
+    record.frames[1].density[0].fill(0.5);
+    record.frames[1].curvature.iter_mut().enumerate().for_each(|(i, kappa)| *kappa = 1.0 + 1e-13 * i as f64);
+    assert_eq!(dots(&record), without + 1);
+}
+
 #[test]
 fn a_figure_needs_a_state_and_a_known_format() {
     let mut record = synthetic::record(1, 16, &[]);

@@ -8,6 +8,10 @@ use flow_core::output::{hdf5_file, page};
 use crate::error::CliError;
 use crate::print;
 
+const MEGABYTE: u64 = 1_000_000;
+/// Pages that are larger are slow to load, and some browsers give up.
+const LARGE: u64 = 100 * MEGABYTE;
+
 /// Make a page that shows a result moving: one HTML file, which needs no network.
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -30,5 +34,34 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     check_writable(&path, args.replace)?;
     let record = hdf5_file::read(&args.out)?;
     page::view(&record, &path, args.replace)?;
+    let bytes = std::fs::metadata(&path).map_or(0, |file| file.len());
+    if let Some(warning) = too_large(bytes, record.frames.len()).filter(|_| !args.quiet) {
+        print::talk(&warning);
+    }
     if args.quiet { Ok(()) } else { print::data(&path.display().to_string()) }
+}
+
+/// What to say of a page that a browser may not load.
+fn too_large(bytes: u64, frames: usize) -> Option<String> {
+    (bytes > LARGE).then(|| {
+        // All but a ten thousandth of it is in the frames.
+        let fewer = (frames as u64).saturating_mul(LARGE).div_euclid(bytes).max(2);
+        format!(
+            "warning: the page takes {} MB, and browsers may not load it: run the scene with fewer frames, such as \
+             --set output.frames={fewer}, or with fewer nodes",
+            bytes / MEGABYTE
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn large_pages_are_told_with_what_makes_them_smaller() {
+        assert_eq!(too_large(LARGE, 8500), None);
+        let warning = too_large(928 * MEGABYTE, 8501).unwrap();
+        assert!(warning.contains("928 MB") && warning.contains("output.frames=916,"), "{warning}");
+    }
 }

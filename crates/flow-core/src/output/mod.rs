@@ -2,6 +2,7 @@
 
 pub mod atomic_file;
 pub mod checkpoint;
+mod drawn;
 #[cfg(feature = "hdf5")]
 pub mod hdf5_file;
 pub mod page;

@@ -10,11 +10,13 @@ use crate::run::{Frame, Record};
 const PAGE: &str = include_str!("browser/page.html");
 const STYLE: &str = include_str!("browser/page.css");
 /// The program of the page. The files share one scope; each uses only what stands before it.
-const PROGRAM: [&str; 11] = [
+const PROGRAM: [&str; 13] = [
     include_str!("browser/record.js"),
     include_str!("browser/numbers.js"),
     include_str!("browser/colours.js"),
+    include_str!("browser/notation.js"),
     include_str!("browser/scale.js"),
+    include_str!("browser/interpolant.js"),
     include_str!("browser/panel.js"),
     include_str!("browser/curve.js"),
     include_str!("browser/history.js"),
@@ -66,10 +68,11 @@ pub fn html(record: &Record) -> Result<String, PageError> {
             "style" => document.push_str(STYLE),
             "program" => PROGRAM.iter().for_each(|file| document.push_str(file)),
             "summary" => document.push_str(&payload.summary),
+            "centres" => document.push_str(&payload.centres),
             "positions" => document.push_str(&payload.positions),
             "fields" => document.push_str(&payload.fields),
             "history" => document.push_str(&payload.history),
-            "steps" => document.push_str(&payload.steps),
+            "energies" => document.push_str(&payload.energies),
             _ => unreachable!("page.html asks for {name}"),
         }
         document.push_str(text);

@@ -1,6 +1,7 @@
 //! The data of a page: names and texts as JSON, numbers as base64 that names say how to read.
 
 use super::{base64, facts, json, plane};
+use crate::output::drawn::energy_over_time;
 use crate::run::{Frame, Record};
 
 /// Steps that the page shows at most: more than a screen has pixels.
@@ -10,22 +11,25 @@ const STEPS: usize = 4000;
 pub(super) struct Payload {
     /// Names, texts and tables.
     pub summary: String,
-    /// Position of every node in every frame.
+    /// The middle of the curve in every frame.
+    pub centres: String,
+    /// Position of every node in every frame, from the middle of the curve: single precision does not reach far.
     pub positions: String,
     /// Every field after the other, each frame by frame.
     pub fields: String,
     /// Every value per frame after the other.
     pub history: String,
-    /// Time of the steps, then their energy.
-    pub steps: String,
+    /// Times of the frames and of the steps, then the energies there.
+    pub energies: String,
 }
 
 impl Payload {
     pub fn new(record: &Record) -> Self {
         let (fields, history) = (fields(record), history(record));
         let frames = &record.frames;
-        let every = record.steps.time.len().div_ceil(STEPS).max(1);
-        let steps = thinned(&record.steps.time, every).chain(thinned(&record.steps.energy, every));
+        let every = record.steps.time.len().div_ceil(STEPS);
+        let energies = energy_over_time(frames, &record.steps, every.max(1));
+        let centres: Vec<[f64; 2]> = frames.iter().map(centre).collect();
         let names = |names: &mut dyn Iterator<Item = &str>| json::list(names.map(json::text));
         let summary = json::object([
             ("title", json::text(&record.title)),
@@ -46,16 +50,17 @@ impl Payload {
         let of_frames = |get: &dyn Fn(&Frame) -> f64| frames.iter().map(get).collect::<Vec<_>>();
         Self {
             summary,
-            positions: base64::singles(
-                frames.iter().flat_map(|frame| frame.position.iter().flatten().copied()),
-            ),
+            positions: base64::singles(frames.iter().zip(&centres).flat_map(|(frame, centre)| {
+                frame.position.iter().flat_map(move |at| [at[0] - centre[0], at[1] - centre[1]])
+            })),
+            centres: base64::doubles(centres.iter().flatten().copied()),
             fields: base64::singles(
                 fields
                     .iter()
                     .flat_map(|field| frames.iter().flat_map(|frame| (field.get)(frame).iter().copied())),
             ),
             history: base64::doubles(history.iter().flat_map(|value| of_frames(&value.get))),
-            steps: base64::doubles(steps),
+            energies: base64::doubles([0, 1].iter().flat_map(|&k| energies.iter().map(move |at| at[k]))),
         }
     }
 }
@@ -117,21 +122,12 @@ fn history(record: &Record) -> Vec<Value> {
     history
 }
 
-/// Each value of number `every`, and the last.
-fn thinned(values: &[f64], every: usize) -> impl Iterator<Item = f64> {
-    let last = values.len().saturating_sub(1);
-    values.iter().enumerate().filter(move |(k, _)| k % every == 0 || *k == last).map(|(_, value)| *value)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_long_log_keeps_its_ends() {
-        let values: Vec<f64> = (0..10).map(f64::from).collect();
-        assert_eq!(thinned(&values, 4).collect::<Vec<_>>(), [0.0, 4.0, 8.0, 9.0]);
-        assert_eq!(thinned(&values, 1).count(), 10);
-        assert_eq!(thinned(&[], 1).count(), 0);
-    }
+/// The middle of the positions that are finite.
+fn centre(frame: &Frame) -> [f64; 2] {
+    [0, 1].map(|axis| {
+        let values = || frame.position.iter().map(|at| at[axis]).filter(|value| value.is_finite());
+        let (low, high) =
+            (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+        if low > high { 0.0 } else { 0.5 * low + 0.5 * high }
+    })
 }

@@ -1,10 +1,13 @@
 //! An axis for `plotters`: linear or logarithmic, with labels that have no more digits than needed.
 
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
-use plotters::coord::combinators::{IntoLogRange, LogCoord};
 use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 use plotters::coord::types::RangedCoordf64;
+
+use super::notation::Notation;
+use super::numbers::{decade, tolerance};
+use crate::output::drawn::range;
 
 /// Labels at most.
 pub(super) const LABELS: usize = 6;
@@ -12,6 +15,8 @@ pub(super) const LABELS: usize = 6;
 const LOGARITHMIC_FROM: f64 = 20.0;
 /// Up to this factor, a logarithmic axis has labels at 1, 2 and 5, otherwise at powers of ten.
 const FEW_DECADES: f64 = 1000.0;
+/// Up to so many decades there is a grid line at every digit.
+const GRID_DECADES: usize = 12;
 
 /// Range and kind of an axis.
 #[derive(Clone, Copy, Debug)]
@@ -19,16 +24,18 @@ pub(super) struct Axis {
     low: f64,
     high: f64,
     pub logarithmic: bool,
+    /// Labels wanted; fewer where there is no room for them.
+    labels: usize,
 }
 
 impl Axis {
     pub fn linear(low: f64, high: f64) -> Self {
-        Self { low, high, logarithmic: false }
+        Self { low, high, logarithmic: false, labels: LABELS }
     }
 
     /// From `low` to `high`, both positive.
     pub fn logarithmic(low: f64, high: f64) -> Self {
-        Self { low, high, logarithmic: true }
+        Self { low, high, logarithmic: true, labels: LABELS }
     }
 
     /// A linear axis over the finite `values`, with a margin of `margin` times their range on both sides.
@@ -48,6 +55,11 @@ impl Axis {
         Self::logarithmic(low / factor, high * factor)
     }
 
+    /// The same axis with about so many labels.
+    pub fn with_labels(self, labels: usize) -> Self {
+        Self { labels, ..self }
+    }
+
     /// Place of `value` along the axis: 0 at its low end, 1 at its high end.
     pub fn place(&self, value: f64) -> f64 {
         if self.logarithmic {
@@ -57,52 +69,77 @@ impl Axis {
         }
     }
 
-    /// The text at a tick, without the power of ten in [`title`](Self::title).
+    /// The values that have labels.
+    pub fn ticks(&self) -> Vec<f64> {
+        if !self.logarithmic {
+            return self.as_linear().key_points(self.labels);
+        }
+        let decades = self.decades().count();
+        if decades <= 2 || self.has_few_decades() {
+            if self.labels == LABELS {
+                return self.digits(&[1.0, 2.0, 5.0]);
+            }
+            if decades <= 2 || self.labels > LABELS / 2 {
+                return self.digits(&[1.0, 5.0]);
+            }
+        }
+        let every = decades.div_ceil(self.labels).max(1);
+        self.decades().step_by(every).map(|exponent| 10_f64.powi(exponent)).collect()
+    }
+
+    /// The text at a tick, without what is in [`title`](Self::title).
     pub fn label(&self, value: f64) -> String {
-        if self.logarithmic && !self.has_few_decades() {
-            return power_of_ten(value.log10().round() as i32);
+        if !self.logarithmic {
+            self.notation().label(value)
+        } else if self.has_few_decades() {
+            let decimals = usize::try_from(-decade(value)).unwrap_or(0);
+            format!("{value:.decimals$}")
+        } else {
+            tolerance(value)
         }
-        let unit = 10_f64.powi(self.exponent());
-        let step = if self.logarithmic { value } else { self.step() } / unit;
-        let decimals = (-(step.log10() + 1e-9).floor()).max(0.0) as usize;
-        let value = if value.abs() < 1e-9 * self.size() { 0.0 } else { value };
-        signed(&format!("{:.decimals$}", value / unit))
     }
 
-    /// The name with the power of ten that all labels leave out.
+    /// The name with what all labels leave out.
     pub fn title(&self, name: &str) -> String {
-        match self.exponent() {
-            0 => name.to_owned(),
-            exponent => format!("{name}  [{}]", power_of_ten(exponent)),
-        }
+        if self.logarithmic { name.to_owned() } else { self.notation().title(name) }
     }
 
-    fn exponent(&self) -> i32 {
-        let exponent = self.size().log10().floor();
-        if self.logarithmic || (-2.0..5.0).contains(&exponent) { 0 } else { exponent as i32 }
-    }
-
-    fn size(&self) -> f64 {
-        self.low.abs().max(self.high.abs())
+    fn notation(&self) -> Notation {
+        let step = match self.ticks()[..] {
+            [first, second, ..] => second - first,
+            _ => self.high - self.low,
+        };
+        Notation::new(self.low, self.high, step)
     }
 
     fn has_few_decades(&self) -> bool {
         self.high <= FEW_DECADES * self.low && self.low > 1e-3 && self.high < 1e5
     }
 
-    fn step(&self) -> f64 {
-        match self.as_linear().key_points(LABELS)[..] {
-            [first, second, ..] => second - first,
-            _ => self.high - self.low,
+    /// Exponents of the powers of ten on the axis.
+    fn decades(&self) -> RangeInclusive<i32> {
+        // An end that is a power of ten but for rounding is one; one that is infinite ends where doubles do.
+        let exponent = |value: f64| value.log10().clamp(-330.0, 310.0);
+        (exponent(self.low) - 1e-9).ceil() as i32..=(exponent(self.high) + 1e-9).floor() as i32
+    }
+
+    /// These multiples of powers of ten.
+    fn digits(&self, factors: &[f64]) -> Vec<f64> {
+        let decades = self.decades().start() - 1..=*self.decades().end();
+        let values = decades.flat_map(|k| factors.iter().map(move |factor| factor * 10_f64.powi(k)));
+        values.filter(|value| (-1e-9..=1.0 + 1e-9).contains(&self.place(*value))).collect()
+    }
+
+    fn grid(&self) -> Vec<f64> {
+        if !self.logarithmic {
+            return Vec::new();
         }
+        let every_digit = self.decades().count() <= GRID_DECADES;
+        self.digits(if every_digit { &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0] } else { &[1.0] })
     }
 
     fn as_linear(&self) -> RangedCoordf64 {
         (self.low..self.high).into()
-    }
-
-    fn as_logarithmic(&self) -> LogCoord<f64> {
-        (self.low..self.high).log_scale().into()
     }
 }
 
@@ -112,22 +149,20 @@ impl Ranged for Axis {
 
     fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
         if self.logarithmic {
-            self.as_logarithmic().map(value, limit)
+            let length = f64::from(limit.1) - f64::from(limit.0);
+            (f64::from(limit.0) + length * self.place(*value).clamp(0.0, 1.0)).round() as i32
         } else {
             self.as_linear().map(value, limit)
         }
     }
 
+    /// More points than labels are those of the grid.
     fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
-        if !self.logarithmic {
-            return self.as_linear().key_points(hint);
+        match hint.max_num_points() {
+            0 => Vec::new(),
+            1..=LABELS => self.ticks(),
+            _ => self.grid(),
         }
-        if !self.has_few_decades() || hint.max_num_points() > LABELS {
-            return self.as_logarithmic().key_points(hint);
-        }
-        let decades = self.low.log10().floor() as i32..=self.high.log10() as i32;
-        let values = decades.flat_map(|k| [1.0, 2.0, 5.0].map(|factor| factor * 10_f64.powi(k)));
-        values.filter(|value| (self.low..=self.high).contains(value)).collect()
     }
 
     fn range(&self) -> Range<f64> {
@@ -135,64 +170,12 @@ impl Ranged for Axis {
     }
 }
 
-/// Smallest and largest finite value, kept apart by at least a millionth of their size.
-pub(super) fn range(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
-    let finite = values.into_iter().filter(|value| value.is_finite());
-    let (low, high) =
-        finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
-    if low > high {
-        return (0.0, 1.0);
-    }
-    let size = low.abs().max(high.abs());
-    if high - low > 1e-6 * size {
-        (low, high)
-    } else {
-        let half = if size > 0.0 { 0.05 * size } else { 1.0 };
-        (low - half, high + half)
-    }
-}
-
-/// A number in running text, with about three digits.
-pub(super) fn number(value: f64) -> String {
-    if value == 0.0 || (1e-2..1e5).contains(&value.abs()) {
-        let text = format!("{value:.3}");
-        return signed(text.trim_end_matches('0').trim_end_matches('.'));
-    }
-    let exponent = value.abs().log10().floor() as i32;
-    signed(&format!("{:.2} × {}", value / 10_f64.powi(exponent), power_of_ten(exponent)))
-}
-
-/// A tolerance in running text: `10⁻³`, `3×10⁻³`.
-pub(super) fn tolerance(value: f64) -> String {
-    let exponent = (value.log10() + 1e-9).floor() as i32;
-    let factor = format!("{:.2}", value / 10_f64.powi(exponent));
-    match factor.trim_end_matches('0').trim_end_matches('.') {
-        "1" => power_of_ten(exponent),
-        factor => format!("{factor}×{}", power_of_ten(exponent)),
-    }
-}
-
-/// `10⁻³`, with superscripts.
-fn power_of_ten(exponent: i32) -> String {
-    let digits = exponent.to_string();
-    let superscript = digits.chars().map(|digit| match digit.to_digit(10) {
-        Some(digit) => ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit as usize],
-        None => '⁻',
-    });
-    format!("10{}", superscript.collect::<String>())
-}
-
-/// With a true minus sign.
-fn signed(text: &str) -> String {
-    text.replace('-', "−")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn labels(axis: Axis) -> Vec<String> {
-        axis.key_points(LABELS).into_iter().map(|value| axis.label(value)).collect()
+        axis.ticks().into_iter().map(|value| axis.label(value)).collect()
     }
 
     #[test]
@@ -208,18 +191,11 @@ mod tests {
     }
 
     #[test]
-    fn constant_and_missing_data_have_a_range() {
-        assert_eq!(range([2.0, 2.0]), (1.9, 2.1));
-        assert_eq!(range([f64::NAN]), (0.0, 1.0));
-        assert_eq!(range([0.0]), (-1.0, 1.0));
-    }
-
-    #[test]
-    fn numbers_read_well() {
-        assert_eq!(
-            ["12.5", "1000", "1.50 × 10⁻⁷", "0", "−0.25"],
-            [12.5, 1000.0, 1.5e-7, 0.0, -0.25].map(number)[..]
-        );
-        assert_eq!(["10⁻³", "3×10⁻⁵", "2.5×10⁻¹⁰", "10⁻¹"], [1e-3, 3e-5, 2.5e-10, 0.1].map(tolerance)[..]);
+    fn one_decade_has_labels_whatever_its_size() {
+        let tiny = Axis::logarithmic(1e-23, 1.001e-22);
+        assert_eq!(labels(tiny), ["10⁻²³", "2×10⁻²³", "5×10⁻²³", "10⁻²²"]);
+        assert_eq!(labels(tiny.with_labels(2)), ["10⁻²³", "5×10⁻²³", "10⁻²²"]);
+        assert_eq!(labels(Axis::logarithmic(1.1e-24, 1e-23)).len(), 3);
+        assert!(labels(Axis::logarithmic(5e-324, f64::INFINITY)).len() <= LABELS);
     }
 }

@@ -2,37 +2,66 @@
 
 use plotters::prelude::*;
 
-use super::axis::{Axis, number, range};
+use super::axis::Axis;
+use super::numbers::number;
 use super::page::{Drawn, FAINT, INK, Page, Pen};
 use super::panel::{Panel, Rect};
+use crate::output::drawn::{range, range_of_positions};
 use crate::run::{Frame, Record};
 
 /// Colours of the bar.
 const COLOURS: i32 = 128;
 const WIDTH: f64 = 8.0;
+const BAR_GAP: f64 = 24.0;
+const BAR_WIDTH: f64 = 26.0;
 
-/// Draws the panel into `frame`, with the colour bar to its right.
-pub(super) fn draw<DB: DrawingBackend>(
-    page: &Page<DB>,
-    frame: Rect,
-    record: &Record,
-    first: &Frame,
-    last: &Frame,
-) -> Drawn<DB> {
-    let (x, y) = equal_axes(frame, &[&first.position, &last.position]);
-    let panel = Panel::new(page, frame, (x, "x"), (y, "y"))?;
-    let (values, name) = coloured_by(record, last);
-    let (low, high) = range(values.iter().copied());
-    let bar = Axis::linear(low, high);
-    let initial = Pen::dashed(FAINT, 2.5, 8.0, 6.0);
-    panel.line(page, closed(&first.position), initial)?;
-    panel.line(page, closed(&last.position), Pen::solid(INK, WIDTH + 3.0))?;
-    draw_coloured(page, &panel, &last.position, values, bar)?;
-    panel.draw_frame(page)?;
-    draw_bar(page, frame, bar, &name)?;
-    let [from, to] = [("initial", first), ("final", last)]
-        .map(|(when, frame)| format!("{when}, t = {}", number(frame.time)));
-    page.legend([frame.left, frame.top - 24.0], &[(initial, &from), (Pen::solid(shade(0.45), WIDTH), &to)])
+/// The panel; its frame is chosen when its labels are known.
+pub(super) struct CurvePanel<'a> {
+    first: &'a Frame,
+    last: &'a Frame,
+    values: &'a [f64],
+    bar: Axis,
+    name: String,
+}
+
+impl<'a> CurvePanel<'a> {
+    pub fn new(record: &Record, first: &'a Frame, last: &'a Frame) -> Self {
+        let (values, name) = coloured_by(record, last);
+        let (low, high) = range(values.iter().copied());
+        Self { first, last, values, bar: Axis::linear(low, high), name }
+    }
+
+    /// `frame` with so much room on its left, from `edge` on, as its labels need.
+    pub fn fitted<DB: DrawingBackend>(&self, page: &Page<DB>, frame: Rect, edge: f64) -> Drawn<DB, Rect> {
+        let room = Panel::room(page, self.axes(frame).1)?;
+        Ok(Rect { left: frame.left.max(edge + room), ..frame })
+    }
+
+    /// Room on the right for the bar and its labels.
+    pub fn room<DB: DrawingBackend>(&self, page: &Page<DB>) -> Drawn<DB, f64> {
+        Ok(BAR_GAP + BAR_WIDTH + Panel::room(page, self.bar)?)
+    }
+
+    /// Draws the panel into `frame`, with the colour bar to its right.
+    pub fn draw<DB: DrawingBackend>(&self, page: &Page<DB>, frame: Rect) -> Drawn<DB> {
+        let Self { first, last, .. } = self;
+        let (x, y) = self.axes(frame);
+        let panel = Panel::new(page, frame, (x, "x"), (y, "y"))?;
+        let initial = Pen::dashed(FAINT, 2.5, 8.0, 6.0);
+        panel.line(page, closed(&first.position), initial)?;
+        panel.line(page, closed(&last.position), Pen::solid(INK, WIDTH + 3.0))?;
+        draw_coloured(page, &panel, &last.position, self.values, self.bar)?;
+        panel.draw_frame(page)?;
+        draw_bar(page, frame, self.bar, &self.name)?;
+        let [from, to] = [("initial", first), ("final", last)]
+            .map(|(when, frame)| format!("{when}, t = {}", number(frame.time)));
+        let entries = [(initial, from.as_str()), (Pen::solid(shade(0.45), WIDTH), &to)];
+        page.legend([frame.left, frame.top - 24.0], &entries).map(drop)
+    }
+
+    fn axes(&self, frame: Rect) -> (Axis, Axis) {
+        equal_axes(frame, &[&self.first.position, &self.last.position])
+    }
 }
 
 /// The field that gives the colour: the first density, or the curvature if there is none.
@@ -45,7 +74,8 @@ fn coloured_by<'a>(record: &Record, frame: &'a Frame) -> (&'a [f64], String) {
 
 /// Axes that show all curves with the same scale.
 fn equal_axes(frame: Rect, curves: &[&[[f64; 2]]]) -> (Axis, Axis) {
-    let coordinate = |k: usize| range(curves.iter().flat_map(|curve| curve.iter().map(move |p| p[k])));
+    let coordinate =
+        |k: usize| range_of_positions(curves.iter().flat_map(|curve| curve.iter().map(move |p| p[k])));
     let ((left, right), (bottom, top)) = (coordinate(0), coordinate(1));
     let per_pixel = 1.1 * ((right - left) / frame.width()).max((top - bottom) / frame.height());
     let around = |low: f64, high: f64, pixels: f64| {
@@ -80,8 +110,8 @@ fn draw_coloured<DB: DrawingBackend>(
 }
 
 fn draw_bar<DB: DrawingBackend>(page: &Page<DB>, beside: Rect, bar: Axis, name: &str) -> Drawn<DB> {
-    let left = beside.right + 24.0;
-    let frame = Rect { left, right: left + 26.0, ..beside };
+    let left = beside.right + BAR_GAP;
+    let frame = Rect { left, right: left + BAR_WIDTH, ..beside };
     let panel = Panel::right(page, frame, Axis::linear(0.0, 1.0), (bar, name), INK)?;
     for k in 0..COLOURS {
         let place = |k: i32| f64::from(k.min(COLOURS)) / f64::from(COLOURS);

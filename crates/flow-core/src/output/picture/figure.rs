@@ -4,12 +4,21 @@ use std::path::Path;
 
 use plotters::prelude::DrawingBackend;
 
+use super::curve_panel::CurvePanel;
 use super::file::{self, PictureError};
-use super::page::{Drawn, Page};
+use super::history_panel::HistoryPanel;
+use super::page::{Drawn, Page, SIZE};
 use super::panel::Rect;
 use super::render::Draw;
-use super::{curve_panel, history_panel, state_panel};
+use super::state_panel::StatePanel;
+use crate::output::drawn::smooth;
 use crate::run::{Frame, Record};
+
+/// Points of a curve at least: a side is then shorter than its line is wide.
+const POINTS: usize = 512;
+/// Between the page's edge and what stands nearest to it; between the labels of neighbouring panels.
+const EDGE: f64 = 14.0;
+const GAP: f64 = 16.0;
 
 /// Lines of the (ρ, κ) plane on which the energy of the agents vanishes, as samples (ρ, κ).
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -44,26 +53,38 @@ impl Default for Options {
 /// # Errors
 /// [`PictureError`]; the target is then as it was.
 pub fn plot(record: &Record, path: &Path, options: &Options) -> Result<(), PictureError> {
-    let (first, last) = record.frames.first().zip(record.frames.last()).ok_or(PictureError::NoFrames)?;
+    let ends = record.frames.first().zip(record.frames.last()).ok_or(PictureError::NoFrames)?;
+    let [first, last] = [ends.0, ends.1].map(|frame| smooth(frame, POINTS));
     let figure = Figure { record, first, last, lines: options.nodal_lines.as_ref() };
     file::write(&figure, path, options.width, options.replace)
 }
 
 struct Figure<'a> {
     record: &'a Record,
-    first: &'a Frame,
-    last: &'a Frame,
+    first: Frame,
+    last: Frame,
     lines: Option<&'a NodalLines>,
 }
 
 impl Draw for Figure<'_> {
     fn draw<DB: DrawingBackend>(&self, page: &Page<DB>) -> Drawn<DB> {
         page.title(&self.record.title)?;
+        let curve = CurvePanel::new(self.record, &self.first, &self.last);
+        let state = StatePanel::new(&self.first, &self.last, self.lines);
+        let history = HistoryPanel::new(self.record);
+        // The frames have fixed places, unless labels are so wide that they must give way.
         let left = Rect { left: 112.0, top: 118.0, right: 782.0, bottom: 820.0 };
-        curve_panel::draw(page, left, self.record, self.first, self.last)?;
-        let upper = Rect { left: 1042.0, top: 118.0, right: 1480.0, bottom: 398.0 };
-        state_panel::draw(page, upper, self.first, self.last, self.lines)?;
-        let lower = Rect { top: 540.0, bottom: 820.0, ..upper };
-        history_panel::draw(page, lower, self.record)
+        let left = curve.fitted(page, left, EDGE)?;
+        let [energies, lengths] = history.rooms(page)?;
+        let beside = left.right + curve.room(page)? + GAP + energies.max(state.room(page)?);
+        let upper = Rect {
+            left: beside.max(1042.0),
+            top: 118.0,
+            right: (SIZE[0] - EDGE - lengths).min(1480.0),
+            bottom: 398.0,
+        };
+        curve.draw(page, left)?;
+        state.draw(page, upper)?;
+        history.draw(page, Rect { top: 540.0, bottom: 820.0, ..upper })
     }
 }

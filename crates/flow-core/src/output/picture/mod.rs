@@ -8,6 +8,8 @@ mod curve_panel;
 mod figure;
 mod file;
 mod history_panel;
+mod notation;
+mod numbers;
 mod page;
 mod panel;
 mod render;

@@ -20,6 +20,9 @@ const HALO: f64 = 2.5;
 const AROUND: [[f64; 2]; 8] =
     [[1.0, 0.0], [0.7, 0.7], [0.0, 1.0], [-0.7, 0.7], [-1.0, 0.0], [-0.7, -0.7], [0.0, -1.0], [0.7, -0.7]];
 
+/// Width of the line of a ring.
+const RING: f64 = 2.5;
+
 /// Axes and text.
 pub(super) const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
 /// The initial state.
@@ -143,8 +146,14 @@ impl<DB: DrawingBackend> Page<DB> {
         }
     }
 
-    /// A row of samples, starting at `at`: above a panel it hides nothing.
-    pub fn legend(&self, [mut x, y]: [f64; 2], entries: &[(Pen, &str)]) -> Drawn<DB> {
+    /// A ring around a pixel of the back end.
+    pub fn ring(&self, at: (i32, i32), radius: f64, colour: RGBColor) -> Drawn<DB> {
+        self.root.draw(&Circle::new(at, self.px(radius), colour.filled()))?;
+        self.root.draw(&Circle::new(at, self.px(radius - RING), WHITE.filled()))
+    }
+
+    /// A row of samples, starting at `at`: above a panel it hides nothing. Returns where the next one has its place.
+    pub fn legend(&self, [mut x, y]: [f64; 2], entries: &[(Pen, &str)]) -> Drawn<DB, [f64; 2]> {
         const SAMPLE: f64 = 38.0;
         for (pen, text) in entries {
             self.line(vec![(self.px(x), self.px(y)), (self.px(x + SAMPLE), self.px(y))], *pen)?;
@@ -152,6 +161,6 @@ impl<DB: DrawingBackend> Page<DB> {
             self.text(text, SMALL, [x, y], HPos::Left)?;
             x += self.width(text, SMALL)? + 20.0;
         }
-        Ok(())
+        Ok([x, y])
     }
 }

@@ -8,11 +8,15 @@ use plotters::style::text_anchor::HPos;
 use super::axis::{Axis, LABELS};
 use super::page::{Drawn, GRID, INK, MEDIUM, Page, Pen, SMALL};
 
-/// Room for the labels around a frame.
-const LEFT: f64 = 84.0;
-const RIGHT: f64 = 104.0;
+/// Room below a frame for labels and a name.
 const BELOW: f64 = 74.0;
 const TICK: f64 = 7.0;
+/// Between a frame and its labels, as `plotters` has it; between labels and the name of an axis; between neighbouring labels.
+const TO_LABELS: f64 = 2.0 * TICK;
+const TO_NAME: f64 = 8.0;
+const APART: f64 = 16.0;
+/// Height of the name of an axis.
+const NAME: f64 = 1.2 * MEDIUM;
 /// Points of a line closer than this are merged.
 const CLOSE: f64 = 2.5;
 
@@ -48,24 +52,23 @@ pub(super) struct Panel {
 }
 
 impl Panel {
+    /// Room beside a frame for the labels of a vertical axis and for its name.
+    pub fn room<DB: DrawingBackend>(page: &Page<DB>, axis: Axis) -> Drawn<DB, f64> {
+        let mut widest = 0.0_f64;
+        for value in axis.ticks() {
+            widest = widest.max(page.width(&axis.label(value), SMALL)?);
+        }
+        Ok(TO_LABELS + widest + TO_NAME + NAME)
+    }
+
     /// Draws grid, ticks and labels.
     pub fn new<DB: DrawingBackend>(
         page: &Page<DB>,
         frame: Rect,
-        x: Named<'_>,
-        y: Named<'_>,
-    ) -> Drawn<DB, Self> {
-        Self::with_room(page, frame, LEFT, x, y)
-    }
-
-    /// As [`new`](Self::new), with so much room to the left of the frame.
-    pub fn with_room<DB: DrawingBackend>(
-        page: &Page<DB>,
-        frame: Rect,
-        room: f64,
         (x, x_name): Named<'_>,
         (y, y_name): Named<'_>,
     ) -> Drawn<DB, Self> {
+        let (x, room) = (labelled(page, x, frame.width())?, Self::room(page, y)?);
         let area = page.root.clone().shrink(
             (page.px(frame.left - room), page.px(frame.top)),
             (page.px(frame.width() + room), page.px(frame.height() + BELOW)),
@@ -75,6 +78,7 @@ impl Panel {
             .set_label_area_size(LabelAreaPosition::Bottom, page.px(BELOW))
             .build_cartesian_2d(x, y)?;
         let pixels = chart.plotting_area().get_pixel_range();
+        // Any number that is larger than that of the labels.
         let light_lines = |axis: Axis| if axis.logarithmic { 10 } else { 0 };
         chart
             .configure_mesh()
@@ -105,12 +109,13 @@ impl Panel {
         (y, name): Named<'_>,
         colour: RGBColor,
     ) -> Drawn<DB, Self> {
+        let room = Self::room(page, y)?;
         let area = page.root.clone().shrink(
             (page.px(frame.left), page.px(frame.top)),
-            (page.px(frame.width() + RIGHT), page.px(frame.height())),
+            (page.px(frame.width() + room), page.px(frame.height())),
         );
         let mut chart = ChartBuilder::on(&area)
-            .set_label_area_size(LabelAreaPosition::Right, page.px(RIGHT))
+            .set_label_area_size(LabelAreaPosition::Right, page.px(room))
             .build_cartesian_2d(x, y)?;
         chart
             .configure_mesh()
@@ -198,6 +203,24 @@ impl Panel {
         piece.extend(end);
         page.line(piece, pen)
     }
+}
+
+/// The horizontal `axis`, `length` long, with no more labels than stand beside each other.
+fn labelled<DB: DrawingBackend>(page: &Page<DB>, axis: Axis, length: f64) -> Drawn<DB, Axis> {
+    for labels in (3..=LABELS).rev() {
+        let axis = axis.with_labels(labels);
+        let mut end = f64::NEG_INFINITY;
+        let mut fit = true;
+        for value in axis.ticks() {
+            let (at, half) = (length * axis.place(value), 0.5 * page.width(&axis.label(value), SMALL)?);
+            fit &= at - half >= end + APART;
+            end = at + half;
+        }
+        if fit {
+            return Ok(axis);
+        }
+    }
+    Ok(axis.with_labels(2))
 }
 
 /// The part of a segment inside the unit square (Liang and Barsky).

@@ -11,62 +11,95 @@ use crate::run::Frame;
 
 const INITIAL: Pen = Pen::dashed(FAINT, 2.5, 8.0, 6.0);
 const FINAL: Pen = Pen::solid(INK, 4.0);
+/// A state that covers less than this part of both axes is drawn as a dot.
+const POINT: f64 = 0.01;
+const DOT: f64 = 7.0;
 
-/// Draws the panel into `frame`.
-pub(super) fn draw<DB: DrawingBackend>(
-    page: &Page<DB>,
-    frame: Rect,
-    first: &Frame,
-    last: &Frame,
-    lines: Option<&NodalLines>,
-) -> Drawn<DB> {
-    match last.density.first() {
-        Some(density) => draw_plane(page, frame, &pairs(density, &last.curvature), lines),
-        None => draw_curvature(page, frame, first, last),
-    }
+/// The panel; its frame is chosen when its labels are known.
+pub(super) struct StatePanel<'a> {
+    x: Axis,
+    y: Axis,
+    last: Vec<[f64; 2]>,
+    shows: Shows<'a>,
 }
 
-fn draw_plane<DB: DrawingBackend>(
-    page: &Page<DB>,
-    frame: Rect,
-    to: &[[f64; 2]],
-    lines: Option<&NodalLines>,
-) -> Drawn<DB> {
-    // Room for the nodal lines around the state, which ends on them.
-    let [x, y] = [0, 1].map(|k| Axis::around(to.iter().map(move |point| point[k]), 0.15));
-    let panel = Panel::new(page, frame, (x, "density ρ"), (y, "curvature κ"))?;
-    let mut entries = vec![(FINAL, "final")];
-    if let Some(lines) = lines {
-        let dots = Pen { colour: SEA, width: 5.0, pattern: Pattern::Dots { spacing: 9.0 } };
-        for (points, pen, label) in [
-            (&lines.preferred_curvature, Pen::solid(VERMILION, 3.0), "κ₀(ρ)"),
-            (&lines.low, Pen::dashed(SKY, 3.0, 11.0, 7.0), "ρ₋(κ)"),
-            (&lines.high, dots, "ρ₊(κ)"),
-        ] {
-            if !points.is_empty() {
-                panel.line(page, points.iter().map(|&(x, y)| [x, y]), pen)?;
-                entries.push((pen, label));
-            }
+enum Shows<'a> {
+    /// Density and curvature, with these lines.
+    Plane(Option<&'a NodalLines>),
+    /// Curvature over arc length, with that of the initial state.
+    Curvature { first: Vec<[f64; 2]> },
+}
+
+impl<'a> StatePanel<'a> {
+    pub fn new(first: &Frame, last: &Frame, lines: Option<&'a NodalLines>) -> Self {
+        if let Some(density) = last.density.first() {
+            let last = pairs(density, &last.curvature);
+            // Room for the nodal lines around the state, which ends on them.
+            let [x, y] = [0, 1].map(|k| Axis::around(last.iter().map(move |point| point[k]), 0.15));
+            Self { x, y, last, shows: Shows::Plane(lines) }
+        } else {
+            let y = Axis::around(first.curvature.iter().chain(&last.curvature).copied(), 0.1);
+            let [first, last] = [first, last].map(over_arc_length);
+            Self { x: Axis::linear(0.0, 1.0), y, last, shows: Shows::Curvature { first } }
         }
     }
-    panel.line(page, to.iter().copied(), FINAL)?;
-    panel.draw_frame(page)?;
-    page.legend([frame.left, frame.top - 24.0], &entries)
+
+    /// Room for the labels on the left.
+    pub fn room<DB: DrawingBackend>(&self, page: &Page<DB>) -> Drawn<DB, f64> {
+        Panel::room(page, self.y)
+    }
+
+    /// Draws the panel into `frame`.
+    pub fn draw<DB: DrawingBackend>(&self, page: &Page<DB>, frame: Rect) -> Drawn<DB> {
+        let x_name = match self.shows {
+            Shows::Plane(_) => "density ρ",
+            Shows::Curvature { .. } => "arc length σ / |Γ|",
+        };
+        let panel = Panel::new(page, frame, (self.x, x_name), (self.y, "curvature κ"))?;
+        let mut entries = Vec::new();
+        match &self.shows {
+            Shows::Plane(lines) => {
+                entries.push((FINAL, "final"));
+                for (points, pen, label) in lines.map(styled).into_iter().flatten() {
+                    if !points.is_empty() {
+                        panel.line(page, points.iter().map(|&(x, y)| [x, y]), pen)?;
+                        entries.push((pen, label));
+                    }
+                }
+            }
+            Shows::Curvature { first } => {
+                entries.extend([(INITIAL, "initial"), (FINAL, "final")]);
+                panel.line(page, first.iter().copied(), INITIAL)?;
+            }
+        }
+        panel.line(page, self.last.iter().copied(), FINAL)?;
+        if self.is_a_point() {
+            panel.dots(page, self.last.first().copied(), INK, DOT)?;
+        }
+        panel.draw_frame(page)?;
+        page.legend([frame.left, frame.top - 24.0], &entries).map(drop)
+    }
+
+    fn is_a_point(&self) -> bool {
+        [(self.x, 0), (self.y, 1)].into_iter().all(|(axis, k)| {
+            let places = self.last.iter().map(|point| axis.place(point[k]));
+            let (low, high) = places
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
+            high - low < POINT
+        })
+    }
 }
 
-fn draw_curvature<DB: DrawingBackend>(
-    page: &Page<DB>,
-    frame: Rect,
-    first: &Frame,
-    last: &Frame,
-) -> Drawn<DB> {
-    let y = Axis::around(first.curvature.iter().chain(&last.curvature).copied(), 0.1);
-    let name = "arc length σ / |Γ|";
-    let panel = Panel::new(page, frame, (Axis::linear(0.0, 1.0), name), (y, "curvature κ"))?;
-    panel.line(page, over_arc_length(first), INITIAL)?;
-    panel.line(page, over_arc_length(last), FINAL)?;
-    panel.draw_frame(page)?;
-    page.legend([frame.left, frame.top - 24.0], &[(INITIAL, "initial"), (FINAL, "final")])
+/// Points (ρ, κ) with their look and name.
+type Styled<'a> = (&'a [(f64, f64)], Pen, &'static str);
+
+fn styled(lines: &NodalLines) -> [Styled<'_>; 3] {
+    let dots = Pen { colour: SEA, width: 5.0, pattern: Pattern::Dots { spacing: 9.0 } };
+    [
+        (&lines.preferred_curvature, Pen::solid(VERMILION, 3.0), "κ₀(ρ)"),
+        (&lines.low, Pen::dashed(SKY, 3.0, 11.0, 7.0), "ρ₋(κ)"),
+        (&lines.high, dots, "ρ₊(κ)"),
+    ]
 }
 
 /// The closed trace of density and curvature.

@@ -5,18 +5,18 @@ use std::path::Path;
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
-use super::axis::{Axis, number, range, tolerance};
+use super::axis::Axis;
 use super::figure::Options;
 use super::file::{self, PictureError};
+use super::numbers::{number, tolerance};
 use super::page::{Drawn, INK, ORANGE, Page, Pattern, Pen, ROSE, SEA, SIZE, SKY, SMALL, VERMILION};
 use super::panel::{Panel, Rect};
 use super::render::Draw;
+use crate::output::drawn::range;
 use crate::run::tradeoff::{Ending, Rung, Tradeoff};
 
 const WIDTH: f64 = 3.5;
 const DOT: f64 = 6.0;
-/// Left of the frames: their labels are as wide as 10⁻¹⁰.
-const ROOM: f64 = 100.0;
 /// Room on the axis of times beside the outermost runs, for their labels.
 const MARGIN: f64 = 0.16;
 /// Least decades on the axes: of times, so that two of 1, 2 and 5 are labelled; of errors, so that two powers of ten are.
@@ -92,7 +92,7 @@ impl<'a> Figure<'a> {
         let x = logarithmic(self.times.iter().copied().filter(|time| *time > 0.0), MARGIN, LEAST_TIMES);
         let name = format!("time of integration  [{}]", self.unit);
         let y = (self.errors(), "relative error");
-        let panel = Panel::with_room(page, frame, ROOM, (x, &name), y)?;
+        let panel = Panel::new(page, frame, (x, &name), y)?;
         for series in &self.series {
             let points = || self.times.iter().zip(&series.errors[at]).map(|(time, error)| [*time, *error]);
             panel.line(page, points(), series.pen)?;

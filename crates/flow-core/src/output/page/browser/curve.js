@@ -6,22 +6,27 @@ const BAR = { gap: 18, width: 14 };
 class CurvePanel {
   constructor(record, canvas, redraw) {
     this.record = record;
-    this.panel = new Panel(canvas, [46, 10, 100, 40], redraw);
-    this.extent = [0, 1].map((first) => rangeOf(record.positions, first, 2));
+    this.panel = new Panel(canvas, [46, 10, 90, 40], redraw);
+    const ofFrames = Array.from({ length: record.frames }, (_, frame) => coordinatesIn(record, frame).map(extremes));
+    // Far from the origin a curve is small beside its coordinates.
+    this.extent = [0, 1].map((axis) => apart(extremes(ofFrames.flatMap((frame) => frame[axis])), 1e-12));
     this.ranges = record.fields.map((field) => rangeOf(field.values));
   }
 
   draw(view) {
     const { record, panel } = this;
     panel.clear();
-    panel.axes(...this.equalScales(), "x", "y");
     const field = record.fields[view.field];
     const values = inFrame(record, field, view.frame);
     const colours = colouring(view.ofFrame ? rangeOf(values) : this.ranges[view.field]);
-    const start = this.pixels(0);
-    panel.line(record.nodes + 1, (k) => start(k % record.nodes), { colour: ink("faint"), width: 1.5, dash: [6, 5] });
-    this.drawColoured(view, values, colours);
-    this.drawBar(colours, field.name);
+    const bar = new Scale(colours.low, colours.high);
+    panel.fit(this.equalScales()[1], bar, BAR.gap + BAR.width);
+    panel.axes(...this.equalScales(), "x", "y");
+    const start = this.through(smooth(coordinatesIn(record, 0)));
+    panel.line(start.count + 1, (k) => start.at(k % start.count), { colour: ink("faint"), width: 1.5, dash: [6, 5] });
+    const [x, y, shown] = smooth([...coordinatesIn(record, view.frame), values]);
+    this.drawColoured(this.through([x, y]), shown, colours);
+    this.drawBar(colours, bar, field.name);
     if (view.node !== null) panel.mark(this.pixels(view.frame)(view.node), ink("mark"), 8);
     panel.canvas.setAttribute("aria-label",
       `the curve at time ${written(record.time[view.frame])}, coloured by ${field.name}`);
@@ -38,35 +43,37 @@ class CurvePanel {
     });
   }
 
-  /** Pixels of the nodes in a frame. */
-  pixels(frame) {
-    const points = positionsIn(this.record, frame);
-    return (node) => [this.panel.across(points[2 * node]), this.panel.up(points[2 * node + 1])];
+  /** The pixels of points, and their number. */
+  through([x, y]) {
+    return { count: x.length, at: (k) => [this.panel.across(x[k]), this.panel.up(y[k])] };
   }
 
-  /** Each side between two nodes in one shade; sides without a value are left out. */
-  drawColoured(view, values, colours) {
-    const { panel, record: { nodes } } = this;
-    const { pen } = panel;
-    const point = this.pixels(view.frame);
-    const shades = new Int16Array(nodes);
-    for (let k = 0; k < nodes; k++) shades[k] = shadeOf(colours, 0.5 * (values[k] + values[(k + 1) % nodes]));
+  /** Pixels of the nodes in a frame. */
+  pixels(frame) {
+    return this.through(coordinatesIn(this.record, frame)).at;
+  }
+
+  /** Each side between two points in one shade; sides without a value are left out. */
+  drawColoured({ count, at }, values, colours) {
+    const { pen } = this.panel;
+    const shades = new Int16Array(count);
+    for (let k = 0; k < count; k++) shades[k] = shadeOf(colours, 0.5 * (values[k] + values[(k + 1) % count]));
     Object.assign(pen, { lineJoin: "round", lineCap: "round" });
     pen.setLineDash([]);
     const run = (from, to, style, width) => {
       pen.beginPath();
       for (let k = from; k <= to; k++) {
-        const [x, y] = point(k % nodes);
+        const [x, y] = at(k % count);
         if (Number.isFinite(x) && Number.isFinite(y)) {
-          k > from && point((k - 1) % nodes).every(Number.isFinite) ? pen.lineTo(x, y) : pen.moveTo(x, y);
+          k > from && at((k - 1) % count).every(Number.isFinite) ? pen.lineTo(x, y) : pen.moveTo(x, y);
         }
       }
       Object.assign(pen, { strokeStyle: style, lineWidth: width });
       pen.stroke();
     };
     const runs = (same, draw) => {
-      for (let from = 0, to; from < nodes; from = to) {
-        for (to = from + 1; to < nodes && same(shades[from], shades[to]); to++);
+      for (let from = 0, to; from < count; from = to) {
+        for (to = from + 1; to < count && same(shades[from], shades[to]); to++);
         if (shades[from] >= 0) draw(from, to);
       }
     };
@@ -74,7 +81,7 @@ class CurvePanel {
     runs((one, other) => one === other, (from, to) => run(from, to, colours.shades[shades[from]], WIDTH));
   }
 
-  drawBar(colours, name) {
+  drawBar(colours, scale, name) {
     const { panel } = this;
     const { pen, frame } = panel;
     const left = frame.right + BAR.gap;
@@ -83,14 +90,9 @@ class CurvePanel {
       pen.fillStyle = shade;
       pen.fillRect(left, frame.bottom - (k + 1) * step, BAR.width, step + (k > 0 ? 0.7 : 0));
     });
-    Object.assign(pen, { strokeStyle: ink("edge"), lineWidth: 1, font: FONT, fillStyle: ink("faint") });
+    Object.assign(pen, { strokeStyle: ink("edge"), lineWidth: 1 });
     pen.strokeRect(left, frame.top, BAR.width, panel.height);
-    const scale = new Scale(colours.low, colours.high);
-    Object.assign(pen, { textAlign: "left", textBaseline: "middle" });
-    for (const { value, text } of scale.ticks(panel.height / 50)) {
-      pen.fillText(text, left + BAR.width + TICK, panel.up(value, scale));
-    }
-    panel.sideways(name, panel.canvas.clientWidth - 8);
+    panel.rightAxis(scale, name, ink("faint"), BAR.gap + BAR.width);
   }
 
   /** The node that an event points at. */

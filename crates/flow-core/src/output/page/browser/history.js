@@ -2,19 +2,18 @@
 
 /** A run that spans more than this factor of time starts with a logarithmic axis. */
 const LOGARITHMIC_TIME_FROM = 10;
+/** Pixels: a line that is longer in time is a guess, unless it rises or falls by less than what is visible. */
+const SPARSE = 24;
+const VISIBLE = 4;
 
 class HistoryPanel {
   constructor(record, canvas, redraw) {
     this.record = record;
-    this.panel = new Panel(canvas, [58, 8, 58, 40], redraw);
-    // The steps are finer than the frames, if they were logged.
-    const logged = record.steps.time.length >= record.frames;
-    this.energy = logged
-      ? { time: [record.time[0], ...record.steps.time], value: [record.energy[0], ...record.steps.energy] }
-      : { time: record.time, value: record.energy };
-    this.name = !logged ? "energy of the frames"
-      : record.everyStep > 1 ? `energy of one step in ${record.everyStep}` : "energy of every step";
-    const times = [...this.energy.time, ...record.time].filter((time) => time > 0 && Number.isFinite(time));
+    this.panel = new Panel(canvas, [50, 8, 50, 40], redraw);
+    const every = record.everyStep;
+    this.name = every === 0 ? "energy of the frames"
+      : every === 1 ? "energy of every step and frame" : `energy of the frames and of one step in ${every}`;
+    const times = record.energies.time.filter((time) => time > 0 && Number.isFinite(time));
     [this.start, this.end] = times.reduce(([low, high], time) => [Math.min(low, time), Math.max(high, time)], [Infinity, 0]);
   }
 
@@ -28,20 +27,43 @@ class HistoryPanel {
   }
 
   draw(view) {
-    const { record, panel, energy } = this;
+    const { record, panel } = this;
     panel.clear();
     const x = view.logTime ? new Scale(this.start, this.end, true) : new Scale(0, this.end || 1);
     const colours = { energy: ink("energy"), length: ink("length") };
+    const left = Scale.fitted(rangeOf(record.energies.value), 0.06);
     const right = Scale.around(rangeOf(record.length), 0.08);
-    panel.axes(x, Scale.fitted(rangeOf(energy.value), 0.06), "time", "energy");
+    panel.fit(left, right);
+    panel.axes(x, left, "time", "energy");
     panel.rightAxis(right, "length", colours.length);
-    // Frames are rarer than steps: up to the first one the length is that of the start.
-    const earliest = view.logTime ? this.start : 0;
-    panel.line(record.frames, (k) => [panel.across(Math.max(record.time[k], earliest)), panel.up(record.length[k], right)],
-      { colour: colours.length, width: 2, dash: [7, 5] });
-    panel.line(energy.time.length, (k) => [panel.across(energy.time[k]), panel.up(energy.value[k])],
-      { colour: colours.energy, width: 2 });
+    const starts = [
+      this.drawSeries(record.time, record.length, right, { colour: colours.length, width: 2, dash: [7, 5] }),
+      this.drawSeries(record.energies.time, record.energies.value, left, { colour: colours.energy, width: 2 }),
+    ];
+    document.getElementById("at-start").hidden = !starts.includes(true);
     this.drawCursor(view.frame, right, colours);
+  }
+
+  /** A line, with dots at the ends of its parts that are guesses. Time zero has no place on a logarithmic axis: no line leads there,
+      and a ring at the edge tells the value unless the line begins beside it; returns whether there is one. */
+  drawSeries(time, value, scale, style) {
+    const { panel } = this;
+    const point = (k) => [panel.across(time[k]), panel.up(value[k], scale)];
+    panel.line(time.length, point, style);
+    const edge = panel.frame.left;
+    const hidden = time.length > 1 && Number.isNaN(point(0)[0]);
+    for (let k = 1; k < time.length; k++) {
+      const [[fromX, fromY], [toX, toY]] = [point(k - 1), point(k)];
+      const noLine = hidden && k === 1;
+      if (toX - (noLine ? edge : fromX) <= SPARSE || !(noLine || Math.abs(toY - fromY) > VISIBLE)) continue;
+      panel.dot([fromX, fromY], style.colour);
+      panel.dot([toX, toY], style.colour);
+    }
+    if (!hidden) return false;
+    const [start, [x, y]] = [point(0)[1], point(1)];
+    const shown = x - edge <= SPARSE && Math.abs(start - y) <= VISIBLE;
+    if (!shown) panel.dot([edge, start], style.colour, true);
+    return !shown;
   }
 
   drawCursor(frame, right, colours) {

@@ -2,6 +2,12 @@
 
 const FONT = '12px system-ui, "DejaVu Sans", sans-serif';
 const TICK = 5;
+/** Room for the name of a vertical axis, and for a row of labels on one. */
+const NAME = 22;
+const ROW = 45;
+/** Room for a label on a horizontal axis, and least distance to the next. */
+const COLUMN = 75;
+const APART = 8;
 
 /** A colour of the style sheet, which knows light from dark. */
 function ink(name) {
@@ -9,7 +15,7 @@ function ink(name) {
 }
 
 class Panel {
-  /** `margins`: pixels left of, above, right of and below the frame. */
+  /** `margins`: pixels left of, above, right of and below the frame at least. */
   constructor(canvas, margins, redraw) {
     Object.assign(this, { canvas, margins, pen: canvas.getContext("2d") });
     new ResizeObserver(redraw).observe(canvas);
@@ -24,6 +30,7 @@ class Panel {
     if (canvas.width !== columns || canvas.height !== rows) Object.assign(canvas, { width: columns, height: rows });
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.clearRect(0, 0, width, height);
+    pen.font = FONT;
     const [left, top, right, bottom] = margins;
     this.frame = { left, top, right: Math.max(left + 1, width - right), bottom: Math.max(top + 1, height - bottom) };
   }
@@ -36,40 +43,68 @@ class Panel {
     return this.frame.bottom - this.frame.top;
   }
 
+  /** Widens the margins to what the labels of a vertical scale on the left need, and of one on the right, `off` the frame. */
+  fit(left, right = null, off = 0) {
+    const { canvas, frame, margins } = this;
+    const room = (scale) => TICK + Math.max(0, ...this.rows(scale).ticks.map(({ text }) => this.textWidth(text))) + NAME;
+    frame.left = Math.max(margins[0], room(left));
+    const beside = right ? Math.max(margins[2], off + room(right)) : margins[2];
+    frame.right = Math.max(frame.left + 1, canvas.clientWidth - beside);
+  }
+
+  textWidth(text) {
+    return this.pen.measureText(text).width;
+  }
+
+  /** The labels of a vertical scale. */
+  rows(scale) {
+    return scale.labels(this.height / ROW);
+  }
+
+  /** The labels of the horizontal scale, as many as stand beside each other, with their places. */
+  columns(scale) {
+    for (let count = this.width / COLUMN; ; count--) {
+      const { ticks, title } = scale.labels(count);
+      const placed = ticks.map((tick) => ({ ...tick, at: this.across(tick.value), half: this.textWidth(tick.text) / 2 }));
+      const clear = placed.every((tick, k) => !k || tick.at - tick.half >= placed[k - 1].at + placed[k - 1].half + APART);
+      if (clear || count <= 1) return { ticks: clear ? placed : placed.slice(0, 1), title };
+    }
+  }
+
   /** Draws grid, frame and names of the axes. */
   axes(x, y, xName, yName) {
     Object.assign(this, { x, y });
-    const { pen, frame } = this;
-    Object.assign(pen, { font: FONT, lineWidth: 1, strokeStyle: ink("grid"), fillStyle: ink("faint") });
+    const { canvas, pen, frame } = this;
+    const [columns, rows] = [this.columns(x), this.rows(y)];
+    Object.assign(pen, { lineWidth: 1, strokeStyle: ink("grid"), fillStyle: ink("faint") });
     pen.setLineDash([]);
     pen.textAlign = "center";
     pen.textBaseline = "top";
-    for (const { value, text } of x.ticks(this.width / 75)) {
-      const at = this.across(value);
+    for (const { text, at, half } of columns.ticks) {
       this.stroke([[at, frame.top], [at, frame.bottom]]);
-      pen.fillText(text, at, frame.bottom + TICK);
+      // The last label may be wider than the margin.
+      pen.fillText(text, Math.min(at, canvas.clientWidth - half), frame.bottom + TICK);
     }
-    pen.fillText(xName, (frame.left + frame.right) / 2, frame.bottom + 22);
+    pen.fillText(columns.title(xName), (frame.left + frame.right) / 2, frame.bottom + 22);
     pen.textAlign = "right";
     pen.textBaseline = "middle";
-    for (const { value, text } of y.ticks(this.height / 45)) {
+    for (const { value, text } of rows.ticks) {
       const at = this.up(value);
       this.stroke([[frame.left, at], [frame.right, at]]);
       pen.fillText(text, frame.left - TICK, at);
     }
-    this.sideways(yName, 10);
+    this.sideways(rows.title(yName), 10);
     pen.strokeStyle = ink("edge");
     pen.strokeRect(frame.left, frame.top, this.width, this.height);
   }
 
-  /** A second axis on the right. */
-  rightAxis(scale, name, colour) {
-    const { pen, frame } = this;
+  /** A second axis on the right, `off` the frame. */
+  rightAxis(scale, name, colour, off = 0) {
+    const { pen, frame, canvas } = this;
+    const { ticks, title } = this.rows(scale);
     Object.assign(pen, { fillStyle: colour, textAlign: "left", textBaseline: "middle" });
-    for (const { value, text } of scale.ticks(this.height / 45)) {
-      pen.fillText(text, frame.right + TICK, this.up(value, scale));
-    }
-    this.sideways(name, this.canvas.clientWidth - 8);
+    for (const { value, text } of ticks) pen.fillText(text, frame.right + off + TICK, this.up(value, scale));
+    this.sideways(title(name), canvas.clientWidth - 8);
   }
 
   sideways(text, x) {
@@ -118,6 +153,18 @@ class Panel {
     this.pen.moveTo(...from);
     this.pen.lineTo(...to);
     this.pen.stroke();
+  }
+
+  /** A dot at a point in pixels; hollow if it only stands for the point. */
+  dot([x, y], colour, hollow = false) {
+    if (!Number.isFinite(x) || !Number.isFinite(y)) return;
+    const { pen } = this;
+    pen.setLineDash([]);
+    pen.beginPath();
+    pen.arc(x, y, 3.5, 0, 2 * Math.PI);
+    Object.assign(pen, { fillStyle: hollow ? ink("back") : colour, strokeStyle: colour, lineWidth: 1.5 });
+    pen.fill();
+    pen.stroke();
   }
 
   /** A ring around a point in pixels. */

@@ -25,10 +25,11 @@ function named(names, numbers) {
 function readRecord() {
   const record = JSON.parse(document.getElementById("summary").textContent);
   record.positions = numbersOf("positions", 4);
+  record.centres = numbersOf("centres", 8);
   record.fields = named(record.fields, numbersOf("fields", 4));
   record.history = named(record.history, numbersOf("values", 8));
-  const [time, energy] = named(["time", "energy"], numbersOf("steps", 8));
-  record.steps = { time: time.values, energy: energy.values };
+  const [time, energy] = named(["time", "energy"], numbersOf("energies", 8));
+  record.energies = { time: time.values, value: energy.values };
   [record.time, record.energy, record.length] = record.history.map((value) => value.values);
   for (const line of record.plane?.lines ?? []) line.points = decoded(line.points, 4);
   record.curvature = record.fields[record.densities.length];
@@ -40,22 +41,31 @@ function inFrame(record, field, frame) {
   return field.values.subarray(frame * record.nodes, (frame + 1) * record.nodes);
 }
 
-/** The positions in one frame: x, y, x, y and so on. */
-function positionsIn(record, frame) {
-  return record.positions.subarray(2 * frame * record.nodes, 2 * (frame + 1) * record.nodes);
+/** The coordinates x and y in one frame, one per node. */
+function coordinatesIn(record, frame) {
+  const first = 2 * frame * record.nodes;
+  return [0, 1].map((axis) => Float64Array.from({ length: record.nodes },
+    (_, node) => record.centres[2 * frame + axis] + record.positions[first + 2 * node + axis]));
 }
 
-/** Least and greatest of the finite values, never equal; `first` and `every` pick some of them. */
-function rangeOf(values, first = 0, every = 1) {
+/** Least and greatest of the finite values. */
+function extremes(values) {
   let [low, high] = [Infinity, -Infinity];
-  for (let k = first; k < values.length; k += every) {
-    const value = values[k];
+  for (const value of values) {
     if (!Number.isFinite(value)) continue;
     if (value < low) low = value;
     if (value > high) high = value;
   }
+  return [low, high];
+}
+
+/** The same, never equal. Single precision holds seven digits: what varies by less than a part `constant` is constant. */
+function apart([low, high], constant = 1e-6) {
   if (low > high) return [0, 1];
   const size = Math.max(Math.abs(low), Math.abs(high), 1e-300);
-  // Single precision holds seven digits: what varies by less is constant.
-  return high - low > 1e-6 * size ? [low, high] : [low - 0.05 * size, high + 0.05 * size];
+  return high - low > constant * size ? [low, high] : [low - 0.05 * size, high + 0.05 * size];
+}
+
+function rangeOf(values) {
+  return apart(extremes(values));
 }

@@ -27,29 +27,32 @@ class Scale {
     return value > 0 ? Math.log(value / this.low) / Math.log(this.high / this.low) : NaN;
   }
 
-  /** Up to about `count` values to name, with their texts. */
-  ticks(count) {
-    return this.logarithmic ? this.decades(count) : this.steps(count);
+  /** Up to about `count` values to name, with their texts, and what becomes of the name of the axis. */
+  labels(count) {
+    return this.logarithmic ? { ticks: this.decades(count), title: (name) => name } : this.steps(count);
   }
 
   steps(count) {
     const rough = (this.high - this.low) / Math.max(count, 1);
     const unit = 10 ** Math.floor(Math.log10(rough));
     const step = unit * ([1, 2, 5].find((factor) => factor * unit >= rough) ?? 10);
-    const values = [];
-    for (let k = Math.ceil(this.low / step); k <= Math.floor(this.high / step); k++) values.push(k * step);
-    const digits = Math.max(1, Math.ceil(Math.log10(Math.max(...values.map(Math.abs), step) / step)) + 1);
-    return values.map((value) => ({ value, text: written(value, Math.min(digits, 12)) }));
+    const { label, title } = notation(this.low, this.high, step);
+    const ticks = [];
+    for (let k = Math.ceil(this.low / step); k <= Math.floor(this.high / step); k++) {
+      ticks.push({ value: k * step, text: label(k * step) });
+    }
+    return { ticks, title };
   }
 
   decades(count) {
     const [first, last] = [Math.ceil(Math.log10(this.low) - 1e-9), Math.floor(Math.log10(this.high) + 1e-9)];
     const ticks = [];
     if (last - first < 2) {
+      const inside = (value) => Math.abs(this.place(value) - 0.5) < 0.5 + 1e-9;
       for (let k = first - 1; k <= last; k++) {
-        for (const factor of [1, 2, 5]) {
+        for (const factor of count < 3 ? [1, 5] : [1, 2, 5]) {
           const value = factor * 10 ** k;
-          if (value >= this.low && value <= this.high) ticks.push({ value, text: written(value, 3) });
+          if (inside(value)) ticks.push({ value, text: written(value, 3) });
         }
       }
       return ticks;

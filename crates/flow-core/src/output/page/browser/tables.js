@@ -47,13 +47,22 @@ function writeTexts(record) {
   for (const { title, rows } of record.tables) addTable(title, rows.map(([name, value]) => [name, valueText(value)]));
 }
 
+/** The coordinates of a node, with the digits that tell it from the next one. */
+function positionText([x, y], node) {
+  const next = (node + 1) % x.length;
+  const distance = Math.hypot(x[next] - x[node], y[next] - y[node]);
+  const size = Math.max(Math.abs(x[node]), Math.abs(y[node]));
+  const digits = Math.max(5, Math.min(15, Math.ceil(Math.log10(size / distance)) + 2)) || 5;
+  const rounded = (value) => (Math.abs(value) < 1e-6 * distance ? 0 : value);
+  return [x, y].map((values) => written(rounded(values[node]), digits)).join(", ");
+}
+
 /** What a node holds in a frame, by name. */
 function nodeRows(record, frame, node) {
-  const points = positionsIn(record, frame);
   const value = (field) => written(inFrame(record, field, frame)[node], 5);
   return [
     [`node ${node}`, `s = ${written(node / record.nodes, 5)}`],
-    ["position", `${written(points[2 * node], 5)}, ${written(points[2 * node + 1], 5)}`],
+    ["position", positionText(coordinatesIn(record, frame), node)],
     ...record.fields.map((field) => [field.name, value(field)]),
   ];
 }

@@ -12,7 +12,7 @@ class TracePanel {
   /** `density`: the number of a density; null for the parameter s. */
   constructor(record, density, canvas, redraw) {
     Object.assign(this, { record, density });
-    this.panel = new Panel(canvas, [58, 8, 12, 40], redraw);
+    this.panel = new Panel(canvas, [50, 8, 12, 40], redraw);
     this.abscissa = density === null ? null : record.fields[density];
     this.name = density === null ? "parameter s" : this.abscissa.name;
     this.lines = density !== null && record.plane && record.plane.density === density ? record.plane.lines : [];
@@ -24,7 +24,9 @@ class TracePanel {
     const ranges = [abscissa, record.curvature].map((field) =>
       field && rangeOf(view.ofFrame ? inFrame(record, field, view.frame) : field.values));
     const x = abscissa ? Scale.around(ranges[0], ROOM) : new Scale(0, 1);
-    panel.axes(x, Scale.around(ranges[1], ROOM), this.name, "curvature κ");
+    const y = Scale.around(ranges[1], ROOM);
+    panel.fit(y);
+    panel.axes(x, y, this.name, "curvature κ");
     this.lines.forEach(({ points }, k) => {
       const { colour, width, dash } = LINE_STYLES[k];
       panel.line(points.length / 2, (i) => [panel.across(points[2 * i]), panel.up(points[2 * i + 1])],
@@ -35,14 +37,15 @@ class TracePanel {
     if (view.node !== null) panel.mark(this.pixels(view.frame)(view.node), ink("mark"));
   }
 
-  /** Closed over a density; over s once around, to s = 1. */
+  /** Closed over a density, and a dot if it is one; over s once around, to s = 1. */
   drawState(frame, style) {
-    const { nodes } = this.record;
-    const point = this.pixels(frame);
-    this.panel.line(nodes + 1, (k) => {
-      const [x, y] = point(k % nodes);
-      return [k === nodes && !this.abscissa ? this.panel.frame.right : x, y];
-    }, style);
+    const { record, panel, abscissa } = this;
+    const [kappa, rho] = smooth([record.curvature, abscissa].filter(Boolean).map((field) => inFrame(record, field, frame)));
+    const count = kappa.length;
+    const point = (k) => [panel.across(rho ? rho[k % count] : k / count), panel.up(kappa[k % count])];
+    panel.line(count + 1, point, style);
+    const spread = [0, 1].map((axis) => extremes(Array.from({ length: count }, (_, k) => point(k)[axis])));
+    if (spread.every(([low, high]) => high - low < 2)) panel.dot(point(0), style.colour);
   }
 
   pixels(frame) {

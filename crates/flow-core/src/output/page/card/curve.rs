@@ -3,15 +3,19 @@
 use std::fmt::Write;
 
 use super::super::text::escaped;
+use super::FEW_DIGITS;
 use super::number::short;
+use crate::output::drawn::{range, smooth};
 use crate::run::{Frame, Record};
 
 /// Width and height of the picture, in pixels.
 const SIZE: f64 = 240.0;
 const MARGIN: f64 = 8.0;
-/// More sides than this do not show at this size.
-const MOST_SIDES: usize = 256;
-const SHADES: usize = 32;
+/// Fewer sides than this show at this size, and more than that do not.
+const LEAST_SIDES: usize = 128;
+const MOST_SIDES: usize = 2 * LEAST_SIDES;
+/// An odd number: the middle of the range, where constants are, is not between two shades.
+const SHADES: usize = 33;
 /// Viridis (van der Walt and Smith), as the page has it.
 const VIRIDIS: [[u8; 3]; 11] = [
     [0x44, 0x01, 0x54],
@@ -29,15 +33,13 @@ const VIRIDIS: [[u8; 3]; 11] = [
 
 /// The picture with its bar of colours; nothing if the last frame has no curve that can be drawn.
 pub(super) fn picture(record: &Record) -> String {
-    let (Some(first), Some(last)) = (record.frames.first(), record.frames.last()) else {
-        return String::new();
-    };
+    let Some(ends) = record.frames.first().zip(record.frames.last()) else { return String::new() };
+    let [first, last] = [ends.0, ends.1].map(|frame| smooth(frame, LEAST_SIDES));
     let place = |point: &[f64; 2]| point.iter().all(|x| x.is_finite());
     let points: Vec<[f64; 2]> = first.position.iter().chain(&last.position).copied().filter(place).collect();
     let Some(view) = View::around(&points) else { return String::new() };
-    let (name, values) = coloured_by(record, last);
-    let finite = || values.iter().copied().filter(|value| value.is_finite());
-    let (low, high) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
+    let (name, values) = coloured_by(record, &last);
+    let (low, high) = range(values.iter().copied());
     let mut svg = format!(
         "<div><svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{SIZE}\" height=\"{SIZE}\" \
          viewBox=\"0 0 {SIZE} {SIZE}\" role=\"img\" aria-label=\"the final curve\" style=\"display:block\">"
@@ -135,15 +137,18 @@ fn colour(shade: usize) -> String {
 }
 
 fn bar(name: &str, low: f64, high: f64) -> String {
-    let stops: Vec<String> = (0..SHADES).step_by(SHADES / 8).chain([SHADES - 1]).map(colour).collect();
+    // As many digits as tell the ends apart.
+    let digits = (low.abs().max(high.abs()) / (high - low)).log10().ceil() as i32 + 1;
+    let digits = digits.max(FEW_DIGITS);
+    let stops: Vec<String> = (0..SHADES).step_by(SHADES / 8).map(colour).collect();
     format!(
         "<div style=\"width:{SIZE}px;height:8px;margin-top:6px;border-radius:4px;\
          background:linear-gradient(to right,{})\"></div>\
          <div style=\"width:{SIZE}px;display:flex;justify-content:space-between;font-size:12px\">\
          <span>{}</span><span style=\"overflow-wrap:anywhere;padding:0 0.5em\">{name}</span><span>{}</span></div>",
         stops.join(","),
-        short(low, 3),
-        short(high, 3)
+        short(low, digits),
+        short(high, digits)
     )
 }
 
@@ -155,7 +160,7 @@ mod tests {
     fn the_curve_is_closed_and_cut_where_its_shade_changes() {
         let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         let cut = pieces(&points, &[0.0, 0.0, 1.0, 1.0], 0.0, 1.0);
-        assert_eq!(cut.iter().map(|(shade, _)| *shade).collect::<Vec<_>>(), [0, 16, 31, 16]);
+        assert_eq!(cut.iter().map(|(shade, _)| *shade).collect::<Vec<_>>(), [0, 16, 32, 16]);
         assert_eq!(cut[3].1, [[0.0, 1.0], [0.0, 0.0]]);
         // A field that does not vary has one shade.
         assert_eq!(pieces(&points, &[2.0; 4], 2.0, 2.0).len(), 1);

@@ -11,13 +11,18 @@ pub(super) fn short(value: f64, digits: i32) -> String {
     }
     let exponent = value.abs().log10().floor() as i32;
     let text = if (-3..6).contains(&exponent) {
-        let decimals = (digits - 1 - exponent).max(0) as usize;
-        let text = format!("{value:.decimals$}");
-        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+        trimmed(&format!("{value:.*}", (digits - 1 - exponent).max(0) as usize)).to_owned()
     } else {
-        format!("{value:.1e}")
+        let text = format!("{value:.*e}", (digits - 1).max(0) as usize);
+        let (factor, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        format!("{}e{exponent}", trimmed(factor))
     };
     text.replace('-', "−")
+}
+
+/// Without the zeros at the end of its decimals.
+fn trimmed(text: &str) -> &str {
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
 }
 
 #[cfg(test)]
@@ -34,8 +39,9 @@ mod tests {
             (323.944_48, "323.94"),
             (123_456.7, "123457"),
             (1e-3, "0.001"),
-            (2.34e-12, "2.3e−12"),
-            (1e9, "1.0e9"),
+            (2.34e-12, "2.34e−12"),
+            (1e9, "1e9"),
+            (3_966_360.0, "3.9664e6"),
             (f64::NAN, "not a number"),
             (f64::NEG_INFINITY, "−∞"),
         ];
