@@ -3,6 +3,8 @@
 
 mod gauge;
 mod parts;
+mod stiff_length;
+mod uniform;
 
 use std::sync::Arc;
 
