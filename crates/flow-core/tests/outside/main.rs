@@ -3,6 +3,7 @@
 
 mod gauge;
 mod parts;
+mod slopes;
 mod stiff_length;
 mod uniform;
 
