@@ -2,6 +2,7 @@
 //! each is one file's worth of code, and a flow of them obeys the laws.
 
 mod gauge;
+mod oscillator;
 mod parts;
 mod slopes;
 mod stiff_length;
