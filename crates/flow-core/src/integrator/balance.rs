@@ -68,6 +68,7 @@ pub fn share_lost(problem: &mut dyn Problem, time: f64, state: &[f64], size: f64
         }
         before = Some(missing);
     }
-    energy_after(0.0);
+    moved.copy_from_slice(state);
+    problem.finish(time, &mut moved);
     found
 }
