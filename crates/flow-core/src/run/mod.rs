@@ -1,6 +1,7 @@
 //! From a scene to a finished run.
 
 mod adaptation;
+mod choices;
 mod diagnostics;
 mod energy_density;
 mod energy_terms;
@@ -18,6 +19,7 @@ mod mesh;
 mod mobilities;
 mod nodal_lines;
 mod observer;
+mod own_terms;
 mod prediction;
 mod provenance;
 mod record;

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::adaptation::{Adaptation, unresolved_bound};
+use super::choices::{family, linear_solver, shape};
 use super::diagnostics::Diagnostics;
 use super::energy_terms::{Initial, energy_terms};
 use super::gauges::Gauges;
@@ -10,15 +11,17 @@ use super::limits;
 use super::membrane::Membrane;
 use super::mesh::Mesh;
 use super::mobilities::{density_mobilities, normal_mobility};
+use super::own_terms::{OwnTerms, check_names};
 use super::resolution::{self, MOST_NODES, needed_nodes, size_above, unresolved};
-use super::scene::{self, Nodes, Scene};
+use super::scene::{Nodes, Scene};
 use super::setup_error::SetupError;
-use crate::flow::{EnergySum, FlowMap, GradientFlow, LinearSolver, MetricRole};
+use crate::energies::EnergyTerm;
+use crate::flow::{EnergySum, FlowMap, GradientFlow, MetricRole};
 use crate::geometry::shapes::{Resampled, Shape};
 use crate::geometry::{
     Closure, Embedding, Grading, GradingError, Layout, PeriodicGrid, Placement, SpectralLayout, enclosed_area,
 };
-use crate::operators::{Derivative, DerivativeFamily};
+use crate::operators::Derivative;
 
 /// A flow with its initial state.
 #[derive(Debug)]
@@ -52,18 +55,35 @@ impl Setup {
     /// # Errors
     /// [`SetupError`] if the curve or the data of the scene make no initial state.
     pub fn new(scene: &Scene) -> Result<Self, SetupError> {
+        Self::with(scene, OwnTerms::default())
+    }
+
+    /// The same with the terms that `terms` makes for a number of nodes, after those of the scene.
+    ///
+    /// # Errors
+    /// As [`Setup::new`], and [`SetupError::TermName`].
+    pub fn with_terms(
+        scene: &Scene,
+        terms: impl Fn(usize) -> Vec<Box<dyn EnergyTerm>> + Send + Sync + 'static,
+    ) -> Result<Self, SetupError> {
+        Self::with(scene, OwnTerms::made_by(terms))
+    }
+
+    pub(super) fn with(scene: &Scene, own: OwnTerms) -> Result<Self, SetupError> {
         let shape = shape(&scene.curve.shape);
         let initial_length = shape.length()?;
-        let Start { mesh, grading, curve, state, closure_defect } = start(scene, &shape, initial_length)?;
+        let Start { mesh, grading, curve, state, closure_defect } =
+            start(scene, &shape, initial_length, &own)?;
         let layout = layout(scene, mesh.nodes);
         let area = area(&state, layout, &curve, grading.clone());
-        let initial = Initial { length: initial_length, area };
-        let (flow, diagnostics) = flow(scene, initial, mesh.nodes, grading)?;
+        let initial = Initial { length: initial_length, area, own };
+        let (flow, diagnostics) = flow(scene, &initial, mesh.nodes, grading)?;
+        check_names(flow.energy_terms().names())?;
         limits::check(scene, layout, diagnostics.field_names().len())?;
         let solver = linear_solver(scene.accuracy.linear_solver);
         let membrane = Membrane::new(flow, solver, curve.turning_number, curve.angle);
         let placement = Placement { angle: curve.angle, centre: curve.centre };
-        let gauges = Gauges::new(scene, initial, &mesh)?;
+        let gauges = Gauges::new(scene, &initial, &mesh)?;
         let adaptation = Adaptation::of(scene);
         Ok(Self {
             membrane,
@@ -96,7 +116,7 @@ const MOST_FIRST_NODES: usize = 4096;
 const SMOOTHED: f64 = 1e-2;
 
 /// As many nodes as the scene says, or as its initial data need.
-fn start(scene: &Scene, shape: &Shape, length: f64) -> Result<Start, SetupError> {
+fn start(scene: &Scene, shape: &Shape, length: f64, own: &OwnTerms) -> Result<Start, SetupError> {
     let nodes = match scene.accuracy.nodes {
         Nodes::Count(nodes) => return start_on(scene, shape, nodes),
         Nodes::Auto => FIRST_NODES,
@@ -107,7 +127,7 @@ fn start(scene: &Scene, shape: &Shape, length: f64) -> Result<Start, SetupError>
         return Err(SetupError::TooManyNodes { needed: fronts, most: MOST_NODES, remedy });
     }
     let (mut nodes, family) = (nodes, family(scene, false));
-    let least = length / largest_spacing(scene, length)?;
+    let least = length / largest_spacing(scene, length, own)?;
     if least > MOST_NODES as f64 {
         let remedy = "make the kernel of adhesion wider, take a looser tolerance";
         return Err(SetupError::TooManyNodes { needed: least, most: MOST_NODES, remedy });
@@ -147,11 +167,11 @@ fn start(scene: &Scene, shape: &Shape, length: f64) -> Result<Start, SetupError>
 }
 
 /// Largest distance of nodes that the energies of positions allow on the initial curve.
-fn largest_spacing(scene: &Scene, length: f64) -> Result<f64, SetupError> {
-    if scene.energy.adhesion.is_none() {
+fn largest_spacing(scene: &Scene, length: f64, own: &OwnTerms) -> Result<f64, SetupError> {
+    if scene.energy.adhesion.is_none() && !own.exist() {
         return Ok(f64::INFINITY); // the others do not ask for any
     }
-    let terms = energy_terms(scene, Initial { length, area: 0.0 }, FIRST_NODES)?;
+    let terms = energy_terms(scene, &Initial { length, area: 0.0, own: own.clone() }, FIRST_NODES)?;
     let error = unresolved_bound(scene);
     Ok(terms.iter().map(|term| term.largest_spacing(length, error)).fold(f64::INFINITY, f64::min))
 }
@@ -177,7 +197,7 @@ fn layout(scene: &Scene, nodes: usize) -> Layout {
 /// The flow of a scene on `nodes` nodes, and what frames hold on request.
 pub(super) fn flow(
     scene: &Scene,
-    initial: Initial,
+    initial: &Initial,
     nodes: usize,
     grading: Option<Arc<Grading>>,
 ) -> Result<(GradientFlow, Diagnostics), SetupError> {
@@ -259,41 +279,4 @@ fn area(state: &[f64], layout: Layout, curve: &Resampled, grading: Option<Arc<Gr
     embedding.set_tangent_spectrum(&spectral.spectra(state)[..spectral.modes()], curve.length, 0.0);
     embedding.set_position(curve.length, [0.0; 2]);
     enclosed_area(embedding.position(), embedding.tangent(), curve.length)
-}
-
-/// The curve that a scene names.
-#[must_use]
-pub fn shape(shape: &scene::Shape) -> Shape {
-    match shape {
-        scene::Shape::Circle { radius } => Shape::Circle { radius: *radius },
-        scene::Shape::Ellipse { semi_axes } => Shape::Ellipse { semi_axes: *semi_axes },
-        scene::Shape::Trillium {} => Shape::Trillium,
-        scene::Shape::FigureEight { size } => Shape::FigureEight { size: *size },
-        scene::Shape::Polar { r } => Shape::Polar { r: r.expression().clone() },
-        scene::Shape::Parametric { x, y } => {
-            Shape::Parametric { x: x.expression().clone(), y: y.expression().clone() }
-        }
-        scene::Shape::Points { points } => Shape::Points(points.clone()),
-    }
-}
-
-/// The family of derivatives of `scene` on nodes that are `graded` or not.
-pub(super) fn family(scene: &Scene, graded: bool) -> DerivativeFamily {
-    match scene.accuracy.derivative {
-        scene::Derivative::Auto if graded && scene.flow.follows_solution() => DerivativeFamily::Central8,
-        scene::Derivative::Auto | scene::Derivative::Fourier => DerivativeFamily::Fourier,
-        scene::Derivative::Central2 => DerivativeFamily::Central2,
-        scene::Derivative::Central4 => DerivativeFamily::Central4,
-        scene::Derivative::Central6 => DerivativeFamily::Central6,
-        scene::Derivative::Central8 => DerivativeFamily::Central8,
-    }
-}
-
-pub(super) fn linear_solver(solver: scene::LinearSolver) -> LinearSolver {
-    match solver {
-        scene::LinearSolver::Auto => LinearSolver::Auto,
-        scene::LinearSolver::Fourier => LinearSolver::Fourier,
-        scene::LinearSolver::Banded => LinearSolver::Banded,
-        scene::LinearSolver::Dense => LinearSolver::Dense,
-    }
 }

@@ -6,6 +6,7 @@ mod gauge;
 mod oscillator;
 mod parts;
 mod refusal;
+mod simulation;
 mod slopes;
 mod stiff_length;
 mod uniform;
