@@ -24,7 +24,7 @@ pub struct DerivativeErrors {
 }
 
 impl DerivativeErrors {
-    /// What differences of exact derivatives stay below (measured: 1e-8).
+    /// What differences of exact derivatives stay below (measured, for the terms of the library: 1e-9).
     pub const LARGEST: f64 = 1e-6;
 
     /// Whether all of them are below [`DerivativeErrors::LARGEST`]; NaN is not.
