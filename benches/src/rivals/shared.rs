@@ -68,6 +68,10 @@ impl Problem for Shared {
         self.0.borrow_mut().krylov_feedback(iterations)
     }
 
+    fn rests_with_its_energy(&self) -> bool {
+        self.0.borrow().rests_with_its_energy()
+    }
+
     fn finish(&mut self, time: f64, y: &mut [f64]) -> Finish {
         self.0.borrow_mut().finish(time, y)
     }

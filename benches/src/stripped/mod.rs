@@ -116,6 +116,10 @@ impl Problem for BendingOnly {
         false
     }
 
+    fn rests_with_its_energy(&self) -> bool {
+        true
+    }
+
     fn finish(&mut self, time: f64, y: &mut [f64]) -> Finish {
         let length = y[self.layout.length_index()];
         let [start, angle, angle_rate] = self.placed;

@@ -4,6 +4,10 @@
 //! dX/dt = −𝓚(X)∇𝓕 with 𝓚 symmetric and ≥ 0. The discrete flow has the same form exactly: on any grid the energy falls at the
 //! rate that is recorded, and masses and turning number are kept to rounding. The equations are in [`theory`].
 //!
+//! The crate is used from a checkout of Curveflow, by its path: `flow-core = { path = "curveflow/crates/flow-core" }` among the
+//! dependencies; the feature `hdf5` adds result files (and builds HDF5, for which there must be a C compiler), `picture` figures. Programs to start from
+//! are in the folder `examples` of the checkout.
+//!
 //! # A run
 //!
 //! A *scene* says what flows and how accurately; a *record* is what a run leaves behind.
@@ -61,7 +65,8 @@
 //! | know which tolerance is enough | [`run::tradeoff`] |
 //! | bring your own integrator | [`run::Setup`], [`integrator::Problem`] |
 //! | evaluate force, velocity and dissipation of a state | [`flow::GradientFlow`] |
-//! | add a term to the energy | [`energies::EnergyTerm`] |
+//! | add a term to the energy | as a formula of the scene (`energy.local`), or an [`energies::EnergyTerm`] in [`run::Simulation::with_terms`] |
+//! | know whether its derivatives are right | [`flow::GradientFlow::check_derivatives`] |
 //! | use the formulas of scenes | [`expression`] |
 //!
 //! # Layers

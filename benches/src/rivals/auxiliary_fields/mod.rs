@@ -168,6 +168,10 @@ impl Problem for AuxiliaryFields {
         self.problem.finished_rate(y, rate);
     }
 
+    fn rests_with_its_energy(&self) -> bool {
+        self.problem.rests_with_its_energy()
+    }
+
     fn finish(&mut self, time: f64, y: &mut [f64]) -> Finish {
         self.problem.finish(time, y)
     }

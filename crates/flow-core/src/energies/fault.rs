@@ -12,4 +12,10 @@ pub enum TermFault {
          that they stay apart there"
     )]
     NodalLinesMeet { node: usize, curvature: f64, low: f64, high: f64 },
+    /// A quantity has left the range on which the term means anything.
+    #[error(
+        "`{term}`: {quantity} = {value:.6e} at node {node} must lie between {least:.6e} and {most:.6e}; start from another \
+         state, or change the term so that it keeps the state within"
+    )]
+    OutOfRange { term: &'static str, quantity: &'static str, node: usize, value: f64, least: f64, most: f64 },
 }

@@ -58,6 +58,23 @@ impl LengthJet {
 }
 
 /// One term of the discrete energy `𝓕_h(κ`, g, ρ).
+///
+/// # What a term can be
+///
+/// ∫e(κ, ρ) dσ + ½c∫|∇_sφ|² dσ + ∫e(κ, ρ, ∇_sκ, ∇_sρ) dσ + Φ(|Γ|) + a function of the positions, tangents and the length that does
+/// not change with translations and rotations. Not among these are other functions of integrals, like (∫κ² dσ − c)² or one of an
+/// enclosed mass: their second derivatives are not local, and no part here holds them. Derivatives along the curve higher than the first
+/// are not among them either.
+///
+/// # Derivatives must be exact
+///
+/// They are those of the discrete energy, to rounding. The flow takes its force from the first derivatives, and every step is checked by
+/// the balance of the energy that is lost and the dissipation: with a gradient that is off by 1 % this balance does not close, steps
+/// shrink until what is missing is within the tolerance, and a run creeps until it ends with
+/// [`IntegrationError::OpenBalance`](crate::integrator::IntegrationError::OpenBalance). Second derivatives do not enter results, but the
+/// implicit steps are solved with them: where they are missing or wrong the solves fail or take many iterations, and the steps become as
+/// short as those of an explicit method. [`GradientFlow::check_derivatives`](crate::flow::GradientFlow::check_derivatives) compares both
+/// with differences, term by term: a test with it belongs to every term.
 pub trait EnergyTerm: Debug + Send + Sync {
     /// Key of the term in scenes, in the output file and in Python.
     fn name(&self) -> &'static str;
@@ -88,7 +105,9 @@ pub trait EnergyTerm: Debug + Send + Sync {
     }
 
     /// Adds a local density of the fields and of their slopes: `fields` holds the fields at the flux points,
-    /// then their arc-length derivatives in the same order.
+    /// then their arc-length derivatives in the same order. The flux points of these densities are the midpoints of the nodes for
+    /// every derivative, the nodal one of [`Derivative::new`](crate::operators::Derivative::new) included, under which the sawtooth
+    /// would have no slope and cost nothing.
     fn add_slope_density(&mut self, _fields: Fields<'_>, _jet: &mut Jet) {}
 
     /// The part that depends on the length alone.
@@ -107,9 +126,13 @@ pub trait EnergyTerm: Debug + Send + Sync {
         f64::INFINITY
     }
 
-    /// Returns the part that depends on where the nodes lie, not on rotations or translations, and adds its
+    /// Returns the part that depends on where the nodes lie, and adds its
     /// derivatives by positions, by tangents and by the length at fixed positions and tangents. With
     /// [`Order::Hessian`] the term also keeps what [`EnergyTerm::add_shape_hessian_product`] needs.
+    ///
+    /// It must not change with translations and rotations: the origin of the positions and the angle of the frame mean nothing (see
+    /// [`ShapeFields::position`]), and a term that depends on them, like a field of gravity, acts as if the curve were held where they
+    /// put it. [`GradientFlow::check_derivatives`](crate::flow::GradientFlow::check_derivatives) tells the net force of a term.
     fn add_shape_energy(&mut self, _shape: &ShapeFields, _order: Order, _out: &mut ShapeFields) -> f64 {
         0.0
     }
@@ -123,7 +146,8 @@ pub trait EnergyTerm: Debug + Send + Sync {
     ) {
     }
 
-    /// What is wrong with the data that the term was evaluated on last, if anything.
+    /// What is wrong with the data that the term was evaluated on last, if anything: asked for at the start and after each step, of
+    /// the pointwise fields. A run ends with it. Terms from outside have [`TermFault::OutOfRange`].
     fn fault(&self, _fields: Fields<'_>) -> Option<TermFault> {
         None
     }

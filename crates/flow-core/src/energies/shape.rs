@@ -5,7 +5,9 @@
 /// product of the lengths.
 #[derive(Clone, Debug)]
 pub struct ShapeFields {
-    /// Position γ at the nodes; that of a curve has mean zero.
+    /// Position γ at the nodes, relative to an origin that means nothing: the mean of the nodes, which on graded or co-moving nodes is
+    /// not the centre of the curve. The centre is ∫γ dσ/|Γ| = ⟨wγ⟩, the mean over the nodes with the weights below; a term that needs
+    /// it subtracts it, and takes it along in its derivatives.
     pub position: [Vec<f64>; 2],
     /// Tangent wτ per length at the nodes: ∂_sγ = |Γ|wτ. Of length w up to what the nodes do not resolve.
     pub tangent: [Vec<f64>; 2],

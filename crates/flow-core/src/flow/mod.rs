@@ -25,7 +25,7 @@ pub use energy_sum::{EnergySum, IntrinsicGradient, TermCost};
 pub use excess_density::ExcessDensity;
 pub use flow_map::FlowMap;
 pub use gauge::{CoMoving, Gauge, Graded, MetricRole, ScaledArcLength, Workspace};
-pub use gradient_flow::{EvaluationCost, GradientFlow, PartCosts, Rate};
+pub use gradient_flow::{DerivativeErrors, EvaluationCost, GradientFlow, PartCosts, Rate};
 pub use nodal_curve::{NodalCurve, NodalRates};
 pub(crate) use nodal_curve::{check, nodal_state};
 pub use nodal_error::NodalError;

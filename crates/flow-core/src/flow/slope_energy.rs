@@ -1,5 +1,6 @@
 //! The part of the energy that depends on slopes, L⟨e′(φ, ∇_sφ)⟩ at the flux points, with its exact
-//! derivatives: p += Mᵀe′_φ + D₊ᵀe′_σ/L. On graded nodes L⟨we′(φ, D₊φ/(Lw))⟩, and 1/w is left to the sum. Built only if a term has it. See `THEORY.md`, eq. (D6).
+//! derivatives: p += Mᵀe′_φ + D₊ᵀe′_σ/L. The flux points are the midpoints here even where those of the flow are the nodes: there the
+//! sawtooth has no slope, costs nothing, and grows. On graded nodes L⟨we′(φ, D₊φ/(Lw))⟩, and 1/w is left to the sum. Built only if a term has it. See `THEORY.md`, eq. (D6).
 
 use super::curve_fields::CurveFields;
 use super::energy_sum::IntrinsicGradient;
@@ -13,7 +14,10 @@ use crate::operators::Derivative;
 pub struct SlopeEnergy {
     layout: Layout,
     grid: PeriodicGrid,
+    /// With the midpoints for flux points.
     derivative: Derivative,
+    /// Whether the fields of a state are at hand at these.
+    at_hand: bool,
     jet: Jet,
     /// Fields, then slopes, at the flux points.
     fields: Vec<f64>,
@@ -26,14 +30,15 @@ pub struct SlopeEnergy {
 }
 
 impl SlopeEnergy {
-    /// Room for states of `layout`.
+    /// Room for states of `layout`, whose fields are taken with `derivative`.
     #[must_use]
     pub fn new(layout: Layout, grid: &PeriodicGrid, derivative: &Derivative) -> Self {
         let (nodes, fields) = (layout.nodes(), layout.fields());
         Self {
             layout,
             grid: grid.clone(),
-            derivative: derivative.clone(),
+            derivative: derivative.at_midpoints(grid),
+            at_hand: derivative.interpolation().is_some(),
             jet: Jet::new(nodes, 2 * fields),
             fields: vec![0.0; 2 * fields * nodes],
             frozen_slopes: vec![0.0; fields * nodes],
@@ -81,7 +86,14 @@ impl SlopeEnergy {
     fn fill(&mut self, at: &CurveFields) {
         let fields = self.layout.fields();
         for field in 0..fields {
-            self.fields[self.layout.field(field)].copy_from_slice(at.at_flux_points(field));
+            let values = &mut self.fields[self.layout.field(field)];
+            match self.derivative.interpolation() {
+                Some(symbol) if !self.at_hand => {
+                    vectors::apply_symbol(&mut self.spectrum, at.spectrum(field), symbol);
+                    self.grid.synthesise(&self.spectrum, values);
+                }
+                _ => values.copy_from_slice(at.at_flux_points(field)),
+            }
             let scale = 1.0 / at.length();
             for ((slope, phi), symbol) in
                 self.spectrum.iter_mut().zip(at.spectrum(field)).zip(self.derivative.to_flux())

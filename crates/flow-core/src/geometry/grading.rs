@@ -198,17 +198,6 @@ impl Grading {
         self.shift.iter().enumerate().map(|(i, shift)| i as f64 / count + shift).collect()
     }
 
-    /// Fractions of the arc length at the midpoints, by the trigonometric interpolant of x − s.
-    #[must_use]
-    pub fn midpoint_fractions(&self) -> Vec<f64> {
-        let count = self.nodes();
-        let mut grid = PeriodicGrid::new(count);
-        let mut spectrum = vec![Complex64::default(); grid.modes()];
-        grid.transform(&self.shift, &mut spectrum);
-        let shift = interpolated(&mut grid, &spectrum);
-        shift.iter().enumerate().map(|(i, shift)| (i as f64 + 0.5) / count as f64 + shift).collect()
-    }
-
     /// x − s at the nodes.
     #[must_use]
     pub fn shift(&self) -> &[f64] {
@@ -268,13 +257,12 @@ mod tests {
         for nodes in [32, 45] {
             let grading = Grading::new(&samples(nodes, 1.5)).unwrap();
             assert!((mean(grading.weight()) - 1.0).abs() < 1e-15);
-            for (i, x) in grading.fractions().into_iter().enumerate() {
+            let exact = |s: f64| s + 0.5 * (TAU * s).sin() / TAU;
+            let places = grading.fractions().into_iter().zip(grading.midpoint_fractions());
+            for (i, (x, halfway)) in places.enumerate() {
                 let s = i as f64 / nodes as f64;
-                assert!((x - s - 0.5 * (TAU * s).sin() / TAU).abs() < 1e-15, "{x}");
-            }
-            for (i, x) in grading.midpoint_fractions().into_iter().enumerate() {
-                let s = (i as f64 + 0.5) / nodes as f64;
-                assert!((x - s - 0.5 * (TAU * s).sin() / TAU).abs() < 1e-14, "{x} halfway");
+                assert!((x - exact(s)).abs() < 1e-15, "{x}");
+                assert!((halfway - exact(s + 0.5 / nodes as f64)).abs() < 1e-14, "{halfway}");
             }
             assert!((grading.at(0.25) - 1.0).abs() < 1e-2);
         }

@@ -1,8 +1,9 @@
 //! The step loop with its guards: finite values, falling energy, step sizes above rounding.
 
+use super::balance::{BALANCED, ENERGY_ROUNDING, IMBALANCE, growth_in_balance, share_lost};
+use super::integrals::POSITIVE;
 use super::{
     Counters, Finish, INTEGRALS, IntegrationError, Problem, Rejection, Rejections, Rest, StepReport, Stepper,
-    integrals::POSITIVE, pace::on_scale,
 };
 
 /// Settings of the loop.
@@ -16,7 +17,7 @@ pub struct AdaptiveOptions {
     pub energy_tolerance: f64,
 }
 
-/// The loop around a stepper.
+/// The loop around a stepper, for a [`Problem`] whose energy falls by its dissipation.
 #[derive(Debug)]
 pub struct Adaptive<S> {
     stepper: S,
@@ -30,19 +31,10 @@ pub struct Adaptive<S> {
 
 /// Changes by more than this part of the energy are not its rounding.
 const PLAIN: f64 = 1e-4;
-/// Part of the energy by which rounding may raise it in one step.
-const ENERGY_ROUNDING: f64 = 1e-13;
 /// A dissipation that would lose this many times the energy that the step lost is an error of the solve.
 const ROUGH: f64 = 2.0;
 /// Part of the energy tolerance below which such an error does not matter.
 const UNSEEN: f64 = 0.1;
-/// Multiple of the energy tolerance by which the balance of one step may be off; such steps are few.
-const IMBALANCE: f64 = 25.0;
-/// Part of that at which the next step is to be, where it would grow beyond that, and the part that does not count.
-const IN_BALANCE: f64 = 0.3;
-const BALANCED: f64 = 0.1;
-/// Power of the step by which the balance of one step falls, about: that of the polynomials through the dissipation.
-const BALANCE_POWER: f64 = 6.0;
 /// Part of the energy tolerance by which the energy of a flow at rest may flicker: late, steps leave their solves' errors in stiff modes.
 const STILL: f64 = 1e-5;
 /// Smallest factor of the next attempt at a step that was thrown away.
@@ -54,14 +46,6 @@ const UNMENDED: f64 = 0.5;
 const LEAST_STEP_ULPS: f64 = 16.0;
 /// Differences of times below this have no reciprocals.
 const LEAST_STEP: f64 = LEAST_STEP_ULPS * f64::MIN_POSITIVE;
-
-/// Growth of a step out of balance by `imbalance` that brings the next one to what is worth no growth.
-fn growth_in_balance(imbalance: f64) -> f64 {
-    if imbalance < BALANCED {
-        return f64::INFINITY;
-    }
-    on_scale((IN_BALANCE / imbalance).powf(1.0 / BALANCE_POWER))
-}
 
 impl<S: Stepper> Adaptive<S> {
     /// A loop from the state of `stepper`, whose energy is `energy`.
@@ -125,7 +109,8 @@ impl<S: Stepper> Adaptive<S> {
     pub fn step(&mut self, problem: &mut dyn Problem) -> Result<StepReport, IntegrationError> {
         let start = self.stepper.time();
         if self.counters.steps >= self.options.most_steps {
-            return Err(IntegrationError::TooManySteps { time: start, steps: self.counters.steps });
+            let steps = self.counters.steps;
+            return Err(self.cause(problem, IntegrationError::TooManySteps { time: start, steps }));
         }
         let mut rejections = Rejections::default();
         loop {
@@ -136,6 +121,7 @@ impl<S: Stepper> Adaptive<S> {
             }
             let mut outcome = self.attempt(problem);
             if let Err(cause) = outcome
+                && problem.rests_with_its_energy()
                 && (self.rest.reached(start) || self.idle)
             {
                 rejections.count(cause);
@@ -161,10 +147,26 @@ impl<S: Stepper> Adaptive<S> {
                     let step = self.stepper.step_size();
                     if step < LEAST_STEP.max(LEAST_STEP_ULPS * start.abs() * f64::EPSILON) {
                         let rejections = rejections.total();
-                        return Err(IntegrationError::StepUnderflow { time: start, step, rejections, cause });
+                        let error = IntegrationError::StepUnderflow { time: start, step, rejections, cause };
+                        return Err(self.cause(problem, error));
                     }
                 }
             }
+        }
+    }
+
+    /// What is behind `error`: a balance that no step closes keeps the steps short, whatever ends them.
+    #[cold]
+    fn cause(&mut self, problem: &mut dyn Problem, error: IntegrationError) -> IntegrationError {
+        let (time, step) = (self.stepper.time(), self.stepper.step_size());
+        match share_lost(problem, time, self.stepper.state(), step) {
+            Some(share) => IntegrationError::OpenBalance {
+                time,
+                steps: self.counters.steps,
+                step,
+                percent: 100.0 * share,
+            },
+            None => error,
         }
     }
 

@@ -24,6 +24,13 @@ pub enum IntegrationError {
     /// The allowed number of steps is used up.
     #[error("time.max_steps = {steps} is used up at t = {time:.6e}; raise it, or drop the key")]
     TooManySteps { time: f64, steps: u64 },
+    /// The energy does not lose what is dissipated, however short the step.
+    #[error(
+        "after {steps} steps, at t = {time:.6e}, the steps are down to {step:.3e}, and however short they are the energy loses \
+         {percent:.5} % of what is dissipated: the gradient of a term is not the derivative of its energy; \
+         GradientFlow::check_derivatives tells which"
+    )]
+    OpenBalance { time: f64, steps: u64, step: f64, percent: f64 },
     /// The initial state cannot be evaluated.
     #[error(
         "the energy or its gradient is not finite at the initial state; check the expressions of the scene \

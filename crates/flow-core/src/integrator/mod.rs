@@ -2,6 +2,7 @@
 //! Jacobian and `&[f64]`.
 
 mod adaptive;
+mod balance;
 mod bdf;
 mod clock;
 mod error;
@@ -37,7 +38,13 @@ pub use statistics::{Counters, Rejections};
 pub use step_report::StepReport;
 pub use stopwatch::{Activity, Clocked, Stopwatch};
 
-/// A system dy/dt = f(y) with an implicit operator I − γJ, J ≈ f′.
+/// A system dy/dt = f(y) with an implicit operator I − γJ, J ≈ f′, along whose solutions an energy falls.
+///
+/// The step loop trusts what [`Problem::finish`] says of the energy E. It refuses steps in which E rises by more than its rounding, and
+/// steps after which ΔE + ∫D dt, D the dissipation, is not 0 to [`AdaptiveOptions::energy_tolerance`]: D must be −dE/dt along f exactly,
+/// that is −∇E·f. Where it is not, steps shrink until the balance is within the tolerance, and the loop ends with
+/// [`IntegrationError::OpenBalance`] once it runs out of steps. A problem without an energy tells a constant one and the dissipation 0:
+/// then its steps are controlled by their local errors alone.
 pub trait Problem {
     /// Length of the state.
     fn size(&self) -> usize;
@@ -69,6 +76,14 @@ pub trait Problem {
     fn krylov_feedback(&mut self, iterations: usize) -> bool;
     /// Puts the candidate `y` back onto the constraints; evaluates what a finished step must know.
     fn finish(&mut self, time: f64, y: &mut [f64]) -> Finish;
+    /// Whether the energy tells that the flow is at rest: true if f vanishes wherever the energy no longer falls, as in a gradient
+    /// flow. A step that fails once the energy has stayed the same to rounding while the time doubled, or that fails for the rounding
+    /// of an energy that hardly falls, is then taken with the state held as it is. Where f may move the state along at the same
+    /// energy (an oscillator, a constant energy), that would be wrong by as much as f moves it: such a step is tried again, and
+    /// fails with an error if it must.
+    fn rests_with_its_energy(&self) -> bool {
+        false
+    }
     /// Energy that the rounding of the state finished last may add or take away, where the energy itself is near zero.
     fn energy_rounding(&self, _y: &[f64]) -> f64 {
         0.0
@@ -97,11 +112,11 @@ pub const INTEGRALS: usize = 4;
 pub enum Finish {
     /// The state is usable.
     Good {
-        /// Energy.
+        /// Energy, which may not rise along f; a constant where there is none.
         energy: f64,
-        /// Dissipation −dE/dt.
+        /// Dissipation −dE/dt = −∇E·f ≥ 0, exactly.
         dissipation: f64,
-        /// Rates of the integrals carried along.
+        /// Rates of the integrals carried along; the first is the dissipation.
         integral_rates: [f64; INTEGRALS],
     },
     /// A value is NaN or infinite, or a constraint cannot be met.

@@ -226,6 +226,10 @@ impl<P: Problem> Problem for Clocked<'_, P> {
         self.problem.energy_slope(direction)
     }
 
+    fn rests_with_its_energy(&self) -> bool {
+        self.problem.rests_with_its_energy()
+    }
+
     fn energy_rounding(&self, y: &[f64]) -> f64 {
         self.problem.energy_rounding(y)
     }

@@ -139,6 +139,15 @@ impl Derivative {
         Self::build(family, grid, grading, true)
     }
 
+    /// The same with the midpoints for flux points; itself where they are.
+    #[must_use]
+    pub fn at_midpoints(&self, grid: &PeriodicGrid) -> Self {
+        match self.interpolation {
+            Some(_) => self.clone(),
+            None => Self::staggered(self.family, grid, self.grading.clone()),
+        }
+    }
+
     fn build(
         family: DerivativeFamily,
         grid: &PeriodicGrid,

@@ -67,7 +67,7 @@ impl Diagnostics {
     /// [`SetupError::TooFewNodesForField`] if H = −`Δ_s` + κ² cannot be inverted on so few nodes.
     pub(super) fn new(
         scene: &Scene,
-        initial: Initial,
+        initial: &Initial,
         layout: Layout,
         derivative: &Derivative,
     ) -> Result<Self, SetupError> {
@@ -181,7 +181,7 @@ fn membrane_term(scene: &Scene) -> Option<MembraneTerm> {
 
 fn incompressible(
     scene: &Scene,
-    initial: Initial,
+    initial: &Initial,
     layout: Layout,
     derivative: &Derivative,
 ) -> Result<GradientFlow, SetupError> {

@@ -1,5 +1,6 @@
-//! The terms of the energy that a scene names.
+//! The terms of the energy that a scene names, and own ones.
 
+use super::own_terms::OwnTerms;
 use super::scene::{self, Scene};
 use super::setup_error::SetupError;
 use crate::energies::{
@@ -8,22 +9,24 @@ use crate::energies::{
 };
 use crate::expression::{Expression, ExpressionError};
 
-/// What the energies refer to that the scene does not say.
-#[derive(Clone, Copy, Debug)]
+/// What the energies of a run need that its scene does not say.
+#[derive(Clone, Debug)]
 pub(super) struct Initial {
     /// Length of the initial curve.
     pub length: f64,
     /// Enclosed area of the initial curve, on the grid.
     pub area: f64,
+    /// Terms from outside.
+    pub own: OwnTerms,
 }
 
-/// The terms of the energy that the scene names, for `nodes` nodes.
+/// The terms of the energy that the scene names, then own ones, for `nodes` nodes.
 ///
 /// # Errors
 /// [`SetupError::Expression`] if a derivative of an expression is too large.
 pub(super) fn energy_terms(
     scene: &Scene,
-    initial: Initial,
+    initial: &Initial,
     nodes: usize,
 ) -> Result<Vec<Box<dyn EnergyTerm>>, SetupError> {
     let energy = &scene.energy;
@@ -59,6 +62,7 @@ pub(super) fn energy_terms(
     if let Some(local) = &energy.local {
         terms.push(Box::new(self::local(scene, local, nodes).map_err(at("energy.local.expression"))?));
     }
+    terms.extend(initial.own.on(nodes));
     Ok(terms)
 }
 

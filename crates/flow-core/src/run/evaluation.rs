@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::own_terms::OwnTerms;
 use super::scene::{Gauge, Nodes, Scene};
 use super::setup::{self, Setup};
 use super::setup_error::SetupError;
@@ -52,12 +53,12 @@ pub fn evaluate(
     }
     check(nodes, curvature, metric, density)?;
     scene.accuracy.nodes = Nodes::Count(nodes);
-    let initial = Setup::of(&scene)?.initial;
+    let initial = Setup::of(&scene, OwnTerms::default())?.initial;
     scene.flow.gauge = gauge(&scene, metric);
     let uniform = scene.flow.gauge.metric() == MetricRole::Uniform;
     let grading =
         if uniform { None } else { Some(Arc::new(Grading::of_metric(metric).map_err(NodalError::from)?)) };
-    let (mut flow, _) = setup::flow(&scene, initial, nodes, grading)?;
+    let (mut flow, _) = setup::flow(&scene, &initial, nodes, grading)?;
     let state = nodal_state(curvature, metric, density, flow.layout());
     let energy = flow.dissipation_at(&state).energy;
     Ok(Evaluation { energy, normal_force: flow.normal_force().to_vec() })

@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
+use super::choices::linear_solver;
 use super::diagnostics::Diagnostics;
 use super::energy_terms::Initial;
 use super::membrane::Membrane;
@@ -34,7 +35,7 @@ impl Gauges {
     ///
     /// # Errors
     /// [`SetupError::Grading`] if a grading is not positive, or not resolved.
-    pub(super) fn new(scene: &Scene, initial: Initial, mesh: &Mesh) -> Result<Self, SetupError> {
+    pub(super) fn new(scene: &Scene, initial: &Initial, mesh: &Mesh) -> Result<Self, SetupError> {
         let mut pending = VecDeque::new();
         for switch in &scene.flow.switch {
             let mut scene = scene.clone();
@@ -43,7 +44,7 @@ impl Gauges {
             Mesh::of(mesh.nodes).grading(&scene)?;
             pending.push_back((switch.time, scene));
         }
-        Ok(Self { initial, scene: scene.clone(), pending })
+        Ok(Self { initial: initial.clone(), scene: scene.clone(), pending })
     }
 
     /// Time of the next change; the end of time if none is left.
@@ -100,8 +101,8 @@ impl Gauges {
         grading: Option<Arc<Grading>>,
         turning_number: i32,
     ) -> Result<(Membrane, Diagnostics), SetupError> {
-        let (flow, diagnostics) = setup::flow(&self.scene, self.initial, nodes, grading)?;
-        let solver = setup::linear_solver(self.scene.accuracy.linear_solver);
+        let (flow, diagnostics) = setup::flow(&self.scene, &self.initial, nodes, grading)?;
+        let solver = linear_solver(self.scene.accuracy.linear_solver);
         Ok((Membrane::new(flow, solver, turning_number, 0.0), diagnostics))
     }
 

@@ -3,12 +3,14 @@
 use std::sync::Arc;
 
 use super::adaptation::unresolved_bound;
+use super::choices::family;
 use super::energy_terms::{Initial, energy_terms};
 use super::mesh::Mesh;
 use super::missed::missed;
+use super::own_terms::OwnTerms;
 use super::resolution::{self, MOST_NODES, needed_nodes, size_above, unresolved};
 use super::scene::{Nodes, Scene};
-use super::setup::{family, layout};
+use super::setup::layout;
 use super::setup_error::SetupError;
 use crate::flow::MetricRole;
 use crate::geometry::shapes::{ByArcLength, Resampled};
@@ -36,20 +38,20 @@ const MISSED: f64 = 10.0;
 
 impl InitialState {
     /// That of `scene`, whose curve is `curve`, and the part of the data that its nodes miss.
-    pub fn of(scene: &Scene, curve: &ByArcLength) -> Result<(Self, f64), SetupError> {
+    pub fn of(scene: &Scene, curve: &ByArcLength, own: &OwnTerms) -> Result<(Self, f64), SetupError> {
         let (found, missed) = match scene.accuracy.nodes {
             Nodes::Count(nodes) => {
                 let found = Self::on(scene, curve, nodes)?;
                 let missed = found.missed(scene, curve)?;
                 (found, missed)
             }
-            Nodes::Auto => Self::resolved(scene, curve)?,
+            Nodes::Auto => Self::resolved(scene, curve, own)?,
         };
         Ok((found, missed))
     }
 
     /// On as many nodes as the data need.
-    fn resolved(scene: &Scene, curve: &ByArcLength) -> Result<(Self, f64), SetupError> {
+    fn resolved(scene: &Scene, curve: &ByArcLength, own: &OwnTerms) -> Result<(Self, f64), SetupError> {
         let length = curve.length();
         let too_many = |needed: f64, remedy| SetupError::TooManyNodes { needed, most: MOST_NODES, remedy };
         let fronts = resolution::fronts(scene, length);
@@ -58,7 +60,7 @@ impl InitialState {
                 "make epsilon or delta larger, let nodes follow the fronts (flow.gauge = \"graded\")";
             return Err(too_many(fronts, remedy));
         }
-        let least = length / largest_spacing(scene, length)?;
+        let least = length / largest_spacing(scene, length, own)?;
         if least > MOST_NODES as f64 {
             return Err(too_many(least, "make the kernel of adhesion wider, take a looser tolerance"));
         }
@@ -120,11 +122,11 @@ impl InitialState {
 }
 
 /// Largest distance of nodes that the energies of positions allow on the initial curve.
-fn largest_spacing(scene: &Scene, length: f64) -> Result<f64, SetupError> {
-    if scene.energy.adhesion.is_none() {
+fn largest_spacing(scene: &Scene, length: f64, own: &OwnTerms) -> Result<f64, SetupError> {
+    if scene.energy.adhesion.is_none() && !own.exist() {
         return Ok(f64::INFINITY); // the others do not ask for any
     }
-    let terms = energy_terms(scene, Initial { length, area: 0.0 }, FIRST_NODES)?;
+    let terms = energy_terms(scene, &Initial { length, area: 0.0, own: own.clone() }, FIRST_NODES)?;
     let error = unresolved_bound(scene);
     Ok(terms.iter().map(|term| term.largest_spacing(length, error)).fold(f64::INFINITY, f64::min))
 }

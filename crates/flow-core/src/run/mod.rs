@@ -1,6 +1,7 @@
 //! From a scene to a finished run.
 
 mod adaptation;
+mod choices;
 mod diagnostics;
 mod energy_density;
 mod energy_terms;
@@ -20,6 +21,7 @@ mod missed;
 mod mobilities;
 mod nodal_lines;
 mod observer;
+mod own_terms;
 mod prediction;
 mod provenance;
 mod record;
@@ -29,7 +31,6 @@ mod schedule;
 mod seconds;
 mod setup;
 mod setup_error;
-mod shape;
 mod simulation;
 mod term_parts;
 pub mod tradeoff;

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::adaptation::Adaptation;
+use super::choices::{family, linear_solver, shape};
 use super::diagnostics::Diagnostics;
 use super::energy_terms::{Initial, energy_terms};
 use super::gauges::Gauges;
@@ -11,13 +12,14 @@ use super::limits;
 use super::membrane::Membrane;
 use super::mesh::Mesh;
 use super::mobilities::{density_mobilities, normal_mobility};
-use super::scene::{self, Scene};
+use super::own_terms::{OwnTerms, check_names};
+use super::scene::Scene;
 use super::setup_error::SetupError;
-use super::shape::shape;
-use crate::flow::{EnergySum, FlowMap, GradientFlow, LinearSolver, MetricRole};
+use crate::energies::EnergyTerm;
+use crate::flow::{EnergySum, FlowMap, GradientFlow, MetricRole};
 use crate::geometry::shapes::Resampled;
 use crate::geometry::{Embedding, Grading, Layout, PeriodicGrid, Placement, SpectralLayout, enclosed_area};
-use crate::operators::{Derivative, DerivativeFamily};
+use crate::operators::Derivative;
 
 /// A flow with its initial state.
 #[derive(Debug)]
@@ -50,24 +52,36 @@ impl Setup {
     /// # Errors
     /// [`SetupError`] if the curve or the data of the scene make no initial state.
     pub fn new(scene: &Scene) -> Result<Self, SetupError> {
-        Self::of(&scene.clone().checked()?)
+        Self::of(&scene.clone().checked()?, OwnTerms::default())
     }
 
-    /// Builds what the scene names, and nothing else; its values are taken for checked.
-    pub(super) fn of(scene: &Scene) -> Result<Self, SetupError> {
+    /// The same with the terms that `terms` makes for a number of nodes, after those of the scene.
+    ///
+    /// # Errors
+    /// As [`Setup::new`], and [`SetupError::TermName`].
+    pub fn with_terms(
+        scene: &Scene,
+        terms: impl Fn(usize) -> Vec<Box<dyn EnergyTerm>> + Send + Sync + 'static,
+    ) -> Result<Self, SetupError> {
+        Self::of(&scene.clone().checked()?, OwnTerms::made_by(terms))
+    }
+
+    /// The same for a scene whose values are taken for checked.
+    pub(super) fn of(scene: &Scene, own: OwnTerms) -> Result<Self, SetupError> {
         let curve = shape(&scene.curve.shape).by_arc_length()?;
         let initial_length = curve.length();
         let (InitialState { mesh, grading, curve, state, closure_defect }, missed) =
-            InitialState::of(scene, &curve)?;
+            InitialState::of(scene, &curve, &own)?;
         let layout = layout(scene, mesh.nodes);
         let area = area(&state, layout, &curve, grading.clone());
-        let initial = Initial { length: initial_length, area };
-        let (flow, diagnostics) = flow(scene, initial, mesh.nodes, grading)?;
+        let initial = Initial { length: initial_length, area, own };
+        let (flow, diagnostics) = flow(scene, &initial, mesh.nodes, grading)?;
+        check_names(flow.energy_terms().names())?;
         limits::check(scene, layout, diagnostics.field_names().len())?;
         let solver = linear_solver(scene.accuracy.linear_solver);
         let membrane = Membrane::new(flow, solver, curve.turning_number, curve.angle);
         let placement = Placement { angle: curve.angle, centre: curve.centre };
-        let gauges = Gauges::new(scene, initial, &mesh)?;
+        let gauges = Gauges::new(scene, &initial, &mesh)?;
         let adaptation = Adaptation::of(scene);
         Ok(Self {
             membrane,
@@ -93,7 +107,7 @@ pub(super) fn layout(scene: &Scene, nodes: usize) -> Layout {
 /// The flow of a scene on `nodes` nodes, and what frames hold on request.
 pub(super) fn flow(
     scene: &Scene,
-    initial: Initial,
+    initial: &Initial,
     nodes: usize,
     grading: Option<Arc<Grading>>,
 ) -> Result<(GradientFlow, Diagnostics), SetupError> {
@@ -122,25 +136,4 @@ fn area(state: &[f64], layout: Layout, curve: &Resampled, grading: Option<Arc<Gr
     embedding.set_tangent_spectrum(&spectral.spectra(state)[..spectral.modes()], curve.length, 0.0);
     embedding.set_position(curve.length, [0.0; 2]);
     enclosed_area(embedding.position(), embedding.tangent(), curve.length)
-}
-
-/// The family of derivatives of `scene` on nodes that are `graded` or not.
-pub(super) fn family(scene: &Scene, graded: bool) -> DerivativeFamily {
-    match scene.accuracy.derivative {
-        scene::Derivative::Auto if graded && scene.flow.follows_solution() => DerivativeFamily::Central8,
-        scene::Derivative::Auto | scene::Derivative::Fourier => DerivativeFamily::Fourier,
-        scene::Derivative::Central2 => DerivativeFamily::Central2,
-        scene::Derivative::Central4 => DerivativeFamily::Central4,
-        scene::Derivative::Central6 => DerivativeFamily::Central6,
-        scene::Derivative::Central8 => DerivativeFamily::Central8,
-    }
-}
-
-pub(super) fn linear_solver(solver: scene::LinearSolver) -> LinearSolver {
-    match solver {
-        scene::LinearSolver::Auto => LinearSolver::Auto,
-        scene::LinearSolver::Fourier => LinearSolver::Fourier,
-        scene::LinearSolver::Banded => LinearSolver::Banded,
-        scene::LinearSolver::Dense => LinearSolver::Dense,
-    }
 }

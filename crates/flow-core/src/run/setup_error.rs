@@ -79,6 +79,12 @@ pub enum SetupError {
          the range κ = {low:.4} … {high:.4} of the initial curvature and on the initial densities"
     )]
     EnergyNotFinite { term: String, value: f64, low: f64, high: f64 },
+    /// Two terms have one name, or the name of a term from outside is no key.
+    #[error(
+        "a term from outside is named `{name}`: names of terms are lower-case letters, digits and `_`, and no two terms of a run \
+         have the same one; rename it"
+    )]
+    TermName { name: &'static str },
     /// A term refuses the initial data.
     #[error(transparent)]
     Term(#[from] crate::energies::TermFault),

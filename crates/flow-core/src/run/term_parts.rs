@@ -24,7 +24,7 @@ impl TermParts {
     /// [`SetupError`] as for the terms.
     pub fn new(
         scene: &Scene,
-        initial: Initial,
+        initial: &Initial,
         layout: Layout,
         derivative: &Derivative,
     ) -> Result<Self, SetupError> {

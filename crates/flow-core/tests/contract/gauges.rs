@@ -162,6 +162,16 @@ proptest! {
     }
 
     #[test]
+    fn the_check_of_derivatives_passes_every_term(blob in any_blob(), nodes in any_nodes(), moving: bool) {
+        for (term, family) in every_flow() {
+            let (grading, state) = graded(&blob, nodes, term.densities(), moving);
+            for errors in flow(term, family, &state, &grading).check_derivatives(&state.y) {
+                prop_assert!(errors.are_small(), "{term:?}, {family:?}, n = {nodes}, {moving}: {errors:?}");
+            }
+        }
+    }
+
+    #[test]
     fn the_mobility_is_symmetric_and_not_negative(blob in any_blob(), nodes in any_nodes(), seed: u64, moving: bool) {
         let (grading, state) = graded(&blob, nodes, 2, moving);
         let layout = state.layout;

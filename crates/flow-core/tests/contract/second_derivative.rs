@@ -3,8 +3,9 @@
 use proptest::prelude::*;
 
 use crate::config;
+use crate::mobilities::{Density, Normal};
 use crate::states::{any_blob, any_nodes};
-use crate::terms::{every_flow, flow};
+use crate::terms::{every_flow, flow, flow_under};
 use crate::vectors::{difference, distance, largest, motion, moved, pair, size, vector_difference};
 
 /// Truncation and rounding of the differences, 1e-12 of the fifth derivative over the first, with room for the
@@ -59,6 +60,19 @@ proptest! {
                 error <= DIFFERENCES * scale,
                 "{term:?}, {family:?}, n = {nodes}: error {error:.1e}, scale {scale:.1e}"
             );
+        }
+    }
+
+    /// What is public says the same, also where a mobility has left an area to hold.
+    #[test]
+    fn the_check_of_derivatives_passes_every_term(blob in any_blob(), nodes in any_nodes()) {
+        for (term, family) in every_flow() {
+            let state = blob.state(nodes, term.densities());
+            let mut flow = flow_under(term.build(state.layout), family, state.layout, Normal::AreaPreserving, &vec![Density::Diffusion; term.densities()]);
+            flow.linearise(&state.y);
+            for errors in flow.check_derivatives(&state.y) {
+                prop_assert!(errors.are_small(), "{term:?}, {family:?}, n = {nodes}: {errors:?}");
+            }
         }
     }
 

@@ -1,8 +1,15 @@
 //! An energy, a normal mobility, a density mobility and a gauge from outside the library, through its public interface alone:
 //! each is one file's worth of code, and a flow of them obeys the laws.
 
+mod derivatives;
 mod gauge;
+mod oscillator;
 mod parts;
+mod refusal;
+mod simulation;
+mod slopes;
+mod stiff_length;
+mod uniform;
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! What each term costs: evaluations with it alone, less evaluations with none.
+//! Each term alone, and what it costs: evaluations with it alone, less evaluations with none.
 
 use std::mem;
 use std::time::Instant;
@@ -57,34 +57,33 @@ impl EnergySum {
         let (slopes, shape) = (self.slopes.take(), self.shape.take());
         let stiffness = mem::replace(&mut self.stiffness, vec![0.0; self.layout.fields()]);
         costs[0] = costs[0].least(self.measure(at, motion, gradient));
-        (self.slopes, self.shape) = (slopes, shape);
-        let mut back: Vec<Box<dyn EnergyTerm>> = Vec::with_capacity(terms.len());
-        for (term, cost) in terms.into_iter().zip(&mut costs[1..]) {
-            *cost = cost.least(self.measure_alone(term, at, motion, gradient, &mut back));
-        }
-        (self.terms, self.stiffness) = (back, stiffness);
+        (self.terms, self.slopes, self.shape, self.stiffness) = (terms, slopes, shape, stiffness);
+        let mut costs = costs[1..].iter_mut();
+        self.each_alone(|alone| {
+            if let Some(cost) = costs.next() {
+                *cost = cost.least(alone.measure(at, motion, gradient));
+            }
+        });
     }
 
-    /// Evaluations with `term` alone, which goes to `back`.
-    fn measure_alone(
-        &mut self,
-        term: Box<dyn EnergyTerm>,
-        at: &CurveFields,
-        motion: &[f64],
-        gradient: &mut IntrinsicGradient,
-        back: &mut Vec<Box<dyn EnergyTerm>>,
-    ) -> TermCost {
-        for (field, stiffness) in self.stiffness.iter_mut().enumerate() {
-            *stiffness = term.stiffness(field);
+    /// Calls `visit` with the sum of each term alone, in their order, with the machinery that this term needs and no other.
+    pub(in crate::flow) fn each_alone(&mut self, mut visit: impl FnMut(&mut Self)) {
+        let terms = mem::take(&mut self.terms);
+        let stiffness = self.stiffness.clone();
+        let mut back: Vec<Box<dyn EnergyTerm>> = Vec::with_capacity(terms.len());
+        for term in terms {
+            for (field, stiffness) in self.stiffness.iter_mut().enumerate() {
+                *stiffness = term.stiffness(field);
+            }
+            let slopes = if term.has_slope_density() { None } else { self.slopes.take() };
+            let shape = if term.has_shape_energy() { None } else { self.shape.take() };
+            self.terms.push(term);
+            visit(self);
+            back.append(&mut self.terms);
+            self.slopes = self.slopes.take().or(slopes);
+            self.shape = self.shape.take().or(shape);
         }
-        let slopes = if term.has_slope_density() { None } else { self.slopes.take() };
-        let shape = if term.has_shape_energy() { None } else { self.shape.take() };
-        self.terms.push(term);
-        let cost = self.measure(at, motion, gradient);
-        back.append(&mut self.terms);
-        self.slopes = self.slopes.take().or(slopes);
-        self.shape = self.shape.take().or(shape);
-        cost
+        (self.terms, self.stiffness) = (back, stiffness);
     }
 
     fn measure(&mut self, at: &CurveFields, motion: &[f64], gradient: &mut IntrinsicGradient) -> TermCost {

@@ -1,6 +1,6 @@
 //! What the energies of positions ask for, and what holds the area against them.
 
-use super::EnergySum;
+use super::{EnergySum, ShapeEnergy};
 
 impl EnergySum {
     /// Largest distance of nodes on which the parts that depend on positions are off by the part `error` at most.
@@ -13,6 +13,13 @@ impl EnergySum {
     #[must_use]
     pub fn holds_length(&self, length: f64) -> bool {
         self.shape.is_some() || self.of_length(length).second != 0.0
+    }
+
+    /// Sum of the derivatives by the positions in the gradient evaluated last, as a part of their size: 0 but for rounding, unless a
+    /// term depends on the origin.
+    #[must_use]
+    pub fn net_force(&self) -> f64 {
+        self.shape.as_ref().map_or(0.0, ShapeEnergy::net_force)
     }
 
     /// Makes the second derivative at the linearisation that of 𝓕 + `multiplier` × area.

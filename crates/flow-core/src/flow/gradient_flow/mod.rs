@@ -1,5 +1,6 @@
 //! The right-hand side −`𝓚(X)∇𝓕_h` and the implicit operator −𝓚 Hess `𝓕_h`. See `THEORY.md`, eqs. (F6) and (F7).
 
+mod derivative_check;
 mod implicit;
 mod part_costs;
 mod parts;
@@ -16,6 +17,7 @@ use super::graded_energy::add_spectrum;
 use super::normal_mobility::{MobilityError, NormalMobility};
 use crate::geometry::{Complex64, Layout, SpectralLayout};
 
+pub use derivative_check::DerivativeErrors;
 pub use part_costs::{EvaluationCost, PartCosts};
 
 /// What an evaluation of the flow tells besides the rates.

@@ -1,7 +1,8 @@
 //! Couples the length into a preconditioner of the fields, exactly for stiff functions of the length.
 //!
 //! Hess 𝓕 = H₀ + Φ″ e eᵀ with e the direction of |Γ|, so I + `γ𝓚Hess` 𝓕 is a rank-one change of I + `γ𝓚H₀` by
-//! γΦ″ (𝓚e) eᵀ: Sherman–Morrison. The row of the length in I + `γ𝓚H₀` is eᵀ + γ(H₀𝓚e)ᵀ.
+//! γΦ″ (𝓚e) eᵀ: Sherman–Morrison. The row of the length in I + `γ𝓚H₀` is eᵀ + γ(H₀𝓚e)ᵀ. Φ″ is that at the frozen length, which
+//! alone tells whether there is anything to couple: it may vanish at any other length, and where it vanishes here nothing is done.
 
 use super::super::gradient_flow::GradientFlow;
 use crate::geometry::SpectralLayout;
@@ -20,6 +21,7 @@ pub struct LengthCoupling {
     row: Vec<f64>,
     /// `P₀𝓚e`.
     response: Vec<f64>,
+    /// Φ″ at the frozen state.
     curvature: f64,
 }
 
@@ -44,6 +46,9 @@ impl LengthCoupling {
         let index = self.index;
         self.gamma = gamma;
         self.curvature = flow.energy_terms().of_length(flow.frozen().length()).second;
+        if self.curvature == 0.0 {
+            return;
+        }
         self.row.fill(0.0);
         self.row[index] = 1.0;
         flow.spectral_mobility(&self.row, &mut self.direction);
@@ -75,6 +80,9 @@ impl LengthCoupling {
 
     /// Completes the preconditioned fields in place.
     pub fn apply(&self, x: &mut [f64]) {
+        if self.curvature == 0.0 {
+            return;
+        }
         self.couple_row(x);
         let weight = self.gamma * self.curvature;
         let factor = weight * x[self.index] / (1.0 + weight * self.response[self.index]);

@@ -55,6 +55,7 @@ pub struct Preconditioner {
     carries: bool,
     /// Where the metric is a field: the inverse then acts on the normal velocity and the densities.
     metric: Option<MetricCoupling>,
+    /// None where the mobility keeps the length.
     coupling: Option<LengthCoupling>,
     weights: ResidualWeights,
     stiff_curvature: StiffCurvature,
@@ -66,7 +67,6 @@ impl Preconditioner {
     pub fn new(kind: LinearSolver, flow: &mut GradientFlow) -> Self {
         let layout = flow.layout();
         let modes = flow.grid_and_derivative().0.modes();
-        let length_curvature = flow.energy_terms().of_length(1.0).second;
         let inverse = match kind {
             LinearSolver::Auto | LinearSolver::Fourier => {
                 FieldInverse::Fourier(FourierSymbol::new(layout, modes))
@@ -79,7 +79,7 @@ impl Preconditioner {
         };
         let whole = matches!(inverse, FieldInverse::Dense(_));
         // Where the length is kept, 𝓚e = 0: there is nothing to couple in.
-        let coupled = length_curvature != 0.0 && !flow.normal_mobility().keeps().length;
+        let coupled = !flow.normal_mobility().keeps().length;
         Self {
             weights: ResidualWeights::new(flow.spectral_layout()),
             stiff_curvature: StiffCurvature::new(flow),

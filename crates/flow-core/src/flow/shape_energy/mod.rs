@@ -182,6 +182,14 @@ impl ShapeEnergy {
         energy
     }
 
+    /// |Σ ∂𝓕/∂γ| over the size of the derivatives by positions, of the gradient evaluated last.
+    #[must_use]
+    pub fn net_force(&self) -> f64 {
+        let [x, y] = self.dual.positions();
+        let size = (mean_of_product(x, x) + mean_of_product(y, y)).sqrt();
+        if size == 0.0 { 0.0 } else { mean(x).hypot(mean(y)) / size }
+    }
+
     /// Adds `multiplier` × area to the energy that is linearised.
     pub fn hold_area(&mut self, multiplier: f64) {
         let mut held = Area::Pressure(-multiplier);

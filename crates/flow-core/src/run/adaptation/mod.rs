@@ -7,11 +7,11 @@ mod error;
 
 use std::sync::Arc;
 
+use super::choices::family;
 use super::membrane::Membrane;
 use super::mesh::Mesh;
 use super::resolution::{LEAST_NODES, MOST_NODES, least_resolved, needed_nodes, size_above};
 use super::scene::{Nodes, Scene};
-use super::setup::family;
 use crate::flow::Regrading;
 use crate::geometry::{Grading, Layout, SpectralLayout, resample};
 use crate::operators::DerivativeFamily;

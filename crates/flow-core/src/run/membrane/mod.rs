@@ -274,6 +274,10 @@ impl Problem for Membrane {
         Some(self.flow.energy_slope(direction))
     }
 
+    fn rests_with_its_energy(&self) -> bool {
+        true // a gradient flow
+    }
+
     fn energy_rounding(&self, y: &[f64]) -> f64 {
         f64::EPSILON * self.flow.energy_sensitivity(y)
     }

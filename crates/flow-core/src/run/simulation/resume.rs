@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Simulation;
 use super::clocks::Clocks;
+use crate::energies::EnergyTerm;
 use crate::integrator::{
     self, Adaptive, AdaptiveOptions, Counters, Multistep, Problem, Rest, Stepper, Stopwatch,
 };
@@ -15,6 +16,7 @@ use crate::run::failure::Failure;
 use crate::run::frames::Start;
 use crate::run::membrane::MembraneMemory;
 use crate::run::mesh::Mesh;
+use crate::run::own_terms::OwnTerms;
 use crate::run::record::{Frame, StepLog, StopReason};
 use crate::run::scene::Scene;
 use crate::run::setup_error::SetupError;
@@ -137,12 +139,36 @@ impl Simulation {
     pub fn resume(
         scene: &Scene,
         memory: Memory,
+        frames: Vec<Frame>,
+        steps: StepLog,
+    ) -> Result<Self, ResumeError> {
+        Self::resume_with(scene, OwnTerms::default(), memory, frames, steps)
+    }
+
+    /// The same for a simulation that was made by [`Simulation::with_terms`]: `terms` makes the same terms.
+    ///
+    /// # Errors
+    /// [`ResumeError`] if they do not belong to the scene with these terms.
+    pub fn resume_with_terms(
+        scene: &Scene,
+        terms: impl Fn(usize) -> Vec<Box<dyn EnergyTerm>> + Send + Sync + 'static,
+        memory: Memory,
+        frames: Vec<Frame>,
+        steps: StepLog,
+    ) -> Result<Self, ResumeError> {
+        Self::resume_with(scene, OwnTerms::made_by(terms), memory, frames, steps)
+    }
+
+    fn resume_with(
+        scene: &Scene,
+        own: OwnTerms,
+        memory: Memory,
         mut frames: Vec<Frame>,
         steps: StepLog,
     ) -> Result<Self, ResumeError> {
         let foreign = |item| ResumeError::Foreign { item };
         let clock = Instant::now();
-        let mut simulation = Self::new(scene)?;
+        let mut simulation = Self::with(scene, own)?;
         let turning_number = simulation.membrane.turning_number();
         simulation.gauges.skip(memory.switches.saturating_sub(simulation.switches)); // one may be at the start
         simulation.adaptation = Adaptation::of(simulation.gauges.scene());

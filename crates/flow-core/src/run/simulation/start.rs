@@ -5,6 +5,7 @@ use std::time::Instant;
 use super::clocks::Clocks;
 use super::remap::is_coarse;
 use super::{ENERGY_TOLERANCE_SHARE, Simulation};
+use crate::energies::EnergyTerm;
 use crate::flow::MetricRole;
 use crate::integrator::{
     Adaptive, AdaptiveOptions, Clocked, Counters, Finish, INTEGRALS, Integrals, Multistep, Problem, Stopwatch,
@@ -12,6 +13,7 @@ use crate::integrator::{
 use crate::run::equilibrium::Equilibrium;
 use crate::run::frames::{Start, frame};
 use crate::run::membrane::Membrane;
+use crate::run::own_terms::OwnTerms;
 use crate::run::provenance::Provenance;
 use crate::run::record::{Record, StepLog, StopReason};
 use crate::run::scene::{Nodes, Scene};
@@ -29,9 +31,28 @@ impl Simulation {
     /// # Errors
     /// [`SetupError`] if the scene makes no initial state.
     pub fn new(scene: &Scene) -> Result<Self, SetupError> {
+        Self::with(scene, OwnTerms::default())
+    }
+
+    /// The same with terms of the energy from outside, after those of the scene. `terms` makes them for a number of nodes: at the start,
+    /// and again where the run takes other nodes, another gauge, or saves fields of single terms.
+    ///
+    /// The record and its files hold their energies by name, but the scene knows nothing of them: who resumes such a run brings them
+    /// again, to [`Simulation::resume_with_terms`].
+    ///
+    /// # Errors
+    /// As [`Simulation::new`], and [`SetupError::TermName`].
+    pub fn with_terms(
+        scene: &Scene,
+        terms: impl Fn(usize) -> Vec<Box<dyn EnergyTerm>> + Send + Sync + 'static,
+    ) -> Result<Self, SetupError> {
+        Self::with(scene, OwnTerms::made_by(terms))
+    }
+
+    pub(super) fn with(scene: &Scene, own: OwnTerms) -> Result<Self, SetupError> {
         let clock = Instant::now();
         let scene = &scene.clone().checked()?;
-        let mut setup = Setup::of(scene)?;
+        let mut setup = Setup::of(scene, own)?;
         let (energy, dissipation, integral_rates) = setup.finish()?;
         let Setup {
             mut membrane,
@@ -133,7 +154,7 @@ impl Setup {
     /// Puts the initial state onto its constraints; its energy, its dissipation and the rates of the integrals.
     ///
     /// # Errors
-    /// [`SetupError::EnergyNotFinite`], which names the term.
+    /// [`SetupError::EnergyNotFinite`], which names the term, or the [`SetupError::Term`] by which it refuses the data.
     pub fn finish(&mut self) -> Result<(f64, f64, [f64; INTEGRALS]), SetupError> {
         match self.membrane.finish(0.0, &mut self.state) {
             Finish::Good { energy, dissipation, integral_rates } => Ok((energy, dissipation, integral_rates)),
@@ -142,13 +163,16 @@ impl Setup {
     }
 }
 
-/// Names the term that is not finite on the initial data.
+/// Names the term that is not finite on the initial data, or says what it refuses them for.
 #[cold]
 fn not_finite(membrane: &mut Membrane, state: &[f64]) -> SetupError {
     let layout = membrane.layout();
     let mut nodal = vec![0.0; layout.len()];
     membrane.flow().decode(state, &mut nodal);
     let values = membrane.flow().energies_by_term(&nodal);
+    if let Some(fault) = membrane.flow().fault() {
+        return fault.into(); // the term itself knows best
+    }
     let names: Vec<_> = membrane.flow().energy_terms().names().collect();
     let culprit = values.iter().position(|value| !value.is_finite()).unwrap_or_default();
     let curvature = membrane.flow().current().at_nodes(0).to_vec();
