@@ -77,7 +77,7 @@ def test_a_bad_ladder_says_why(circle: cf.Scene):
     with pytest.raises(cf.LadderError, match="1e-12, number 2 of the list, must be between 1e-10") as raised:
         cf.tradeoff(circle, [1e-3, 1e-12])
     assert isinstance(raised.value, ValueError)
-    with pytest.raises(cf.LadderError, match="the reference has 16 nodes, but the tightest run 32"):
+    with pytest.raises(cf.LadderError, match="the reference has 16 nodes, but a run that it measures 32"):
         cf.tradeoff(circle, [1e-3], reference_nodes=16)
     with pytest.raises(cf.TradeoffError, match=r"(?s)its own tolerance 1e-4.*time\.max_steps"):
         cf.tradeoff(circle.with_values({"time.max_steps": 3}))
