@@ -31,7 +31,12 @@ fn bdf(tolerance: f64) -> Vec<f64> {
     let Finish::Good { energy, integral_rates, .. } = finish else { panic!() };
     let mut counters = Counters::default();
     let stepper = Bdf::new(&mut problem, &y, integral_rates, tolerance, &mut counters);
-    let options = AdaptiveOptions { end: END, most_steps: 100_000, energy_tolerance: tolerance };
+    let options = AdaptiveOptions {
+        end: END,
+        most_steps: 100_000,
+        energy_tolerance: tolerance,
+        doubts_gradients: false,
+    };
     let mut integration = Adaptive::new(stepper, options, energy, counters);
     while integration.stepper().time() < END {
         integration.step(&mut problem).unwrap();

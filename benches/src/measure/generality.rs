@@ -56,7 +56,7 @@ fn drive<P: Problem>(mut problem: P, mut state: Vec<f64>, end: f64, mut watch: O
     let integrals = Integrals::new(0.0, [0.0; INTEGRALS], integral_rates);
     let stepper = Multistep::starting(&mut problem, &state, integrals, TOLERANCE, &mut counters);
     let energy_tolerance = ENERGY_TOLERANCE_SHARE * TOLERANCE;
-    let options = AdaptiveOptions { end, most_steps: u64::MAX, energy_tolerance };
+    let options = AdaptiveOptions { end, most_steps: u64::MAX, energy_tolerance, doubts_gradients: false };
     let mut integration = Adaptive::new(stepper, options, energy, counters);
     while integration.stepper().time() < end {
         let step = match &mut watch {

@@ -46,8 +46,12 @@ pub(super) fn drive<S: Stepper>(
     let clock = Clock::start();
     let mut counters = Counters::default();
     let stepper = build(problem, &mut counters);
-    let options =
-        AdaptiveOptions { end: goal.end, most_steps: u64::MAX, energy_tolerance: goal.energy_tolerance };
+    let options = AdaptiveOptions {
+        end: goal.end,
+        most_steps: u64::MAX,
+        energy_tolerance: goal.energy_tolerance,
+        doubts_gradients: false,
+    };
     let mut integration = Adaptive::new(stepper, options, goal.energy, counters);
     let mut unfinished = None;
     while integration.stepper().time() < goal.end && unfinished.is_none() {

@@ -33,10 +33,8 @@ fn steps_and_nodes_of_the_shipped_scenes_are_foretold_within_a_factor_of_two() {
 #[test]
 fn the_end_of_a_run_is_foretold() {
     let (prediction, record) = both(&shipped("three_fold"));
-    assert_eq!(
-        (&prediction.trial.stop_reason, &record.stop_reason),
-        (&Some(StopReason::Equilibrium), &record.stop_reason)
-    );
+    assert_eq!(prediction.trial.stop_reason, Some(StopReason::Equilibrium));
+    assert_eq!(record.stop_reason, StopReason::Equilibrium);
     assert_near(prediction.trial.time, record.frames.last().expect("a frame").time, 1.5, "time of the rest");
 
     // A circle that its tension shrinks to a point.
@@ -48,6 +46,18 @@ fn the_end_of_a_run_is_foretold() {
     let trial = predict(&scene).expect("an initial state").trial;
     assert!(matches!(trial.stop_reason, Some(StopReason::Failed(_))), "{trial:?}");
     assert!((trial.time - 0.5).abs() < 0.02, "{trial:?}");
+}
+
+/// The steps of a trial are others than those that `time.max_steps` counts.
+#[test]
+fn a_trial_knows_no_most_steps() {
+    let mut scene = shipped("three_fold");
+    scene.time.max_steps = Some(20);
+    let prediction = predict(&scene).expect("an initial state");
+    assert!(
+        prediction.steps > 100.0 && prediction.trial.stop_reason == Some(StopReason::Equilibrium),
+        "{prediction:?}"
+    );
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use flow_core::run::scene::Nodes;
-use flow_core::run::{Prediction, StopReason, Trial, predict};
+use flow_core::run::{Prediction, Scene, StopReason, Trial, predict};
 
 use super::scene_args::SceneArgs;
 use crate::error::CliError;
@@ -27,7 +27,7 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     if args.json {
         return print::data(&format!("{:#}", json(&prediction)));
     }
-    print::data(&table(&prediction, scene.accuracy.nodes == Nodes::Auto))?;
+    print::data(&table(&prediction, &scene))?;
     let Trial { tolerance, .. } = prediction.trial;
     print::talk(&format!(
         "(a trial run at tolerance {tolerance:e} took {} s)",
@@ -58,10 +58,10 @@ fn json(prediction: &Prediction) -> serde_json::Value {
     })
 }
 
-fn table(prediction: &Prediction, automatic: bool) -> String {
+fn table(prediction: &Prediction, scene: &Scene) -> String {
     let Prediction { nodes, most_nodes, unknowns, memory_bytes, file_bytes, steps, .. } = *prediction;
     let Prediction { integration_seconds, output_seconds, ref trial, .. } = *prediction;
-    let nodes = if automatic {
+    let nodes = if scene.accuracy.nodes == Nodes::Auto {
         format!("{nodes} at the start, as many as it needs on the way (about {most_nodes} at most)")
     } else {
         nodes.to_string()
@@ -74,9 +74,16 @@ fn table(prediction: &Prediction, automatic: bool) -> String {
         Some(StopReason::Failed(message)) => format!("to a failure near t = {time}: {message}"),
         _ => "to the end time; fewer if the flow comes to rest before".to_owned(),
     };
+    let hedge = match scene.time.max_steps {
+        Some(most) if steps > most as f64 => format!("; time.max_steps = {most} ends the run before"),
+        _ if trial.tolerance > scene.accuracy.tolerance => {
+            format!(" (so at tolerance {:e})", trial.tolerance)
+        }
+        _ => String::new(),
+    };
     format!(
         "the scene is valid\nnodes     {nodes}\nunknowns  {unknowns}\nmemory    about {} MB\nfile      at most {} MB\nsteps     \
-         about {}, {until}\ntime      about {} s, {} s of it for the steps, {} s for frames and file",
+         about {}, {until}{hedge}\ntime      about {} s, {} s of it for the steps, {} s for frames and file",
         brief(memory_bytes / 1e6),
         brief(file_bytes / 1e6),
         brief(steps),

@@ -15,6 +15,8 @@ pub struct AdaptiveOptions {
     pub most_steps: u64,
     /// Part of the energy by which one step's balance of energy and dissipation may be off.
     pub energy_tolerance: f64,
+    /// Whether a gradient may not be the derivative of its energy: then that is looked into where the steps do not get on.
+    pub doubts_gradients: bool,
 }
 
 /// The loop around a stepper, for a [`Problem`] whose energy falls by its dissipation.
@@ -158,6 +160,9 @@ impl<S: Stepper> Adaptive<S> {
     /// What is behind `error`: a balance that no step closes keeps the steps short, whatever ends them.
     #[cold]
     fn cause(&mut self, problem: &mut dyn Problem, error: IntegrationError) -> IntegrationError {
+        if !self.options.doubts_gradients {
+            return error;
+        }
         let (time, step) = (self.stepper.time(), self.stepper.step_size());
         match share_lost(problem, time, self.stepper.state(), step) {
             Some(share) => IntegrationError::OpenBalance {

@@ -35,23 +35,24 @@ pub struct Prediction {
     pub trial: Trial,
 }
 
-/// A run of the scene at a loose tolerance with few frames, for a second at most.
+/// A run of the scene at a loose tolerance with few frames, for a second, or for a few if its steps are dear.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
     /// Its tolerance.
     pub tolerance: f64,
     /// The time that it reached.
     pub time: f64,
-    /// Why it stopped; none if it was given up after its second.
+    /// Why it stopped; none if it was given up.
     pub stop_reason: Option<StopReason>,
 }
 
 /// Tolerance of the trial, unless the scene asks for a looser one.
 const TRIAL_TOLERANCE: f64 = 1e-2;
 const TRIAL_FRAMES: usize = 8;
-/// A trial is given up after so many seconds of integration, but not before so many steps.
+/// A trial is given up after so many seconds of integration, after so many times that if it has taken a few steps only, and not before two.
 const TRIAL_SECONDS: f64 = 1.0;
-const LEAST_STEPS: usize = 12;
+const FOR_FEW_STEPS: f64 = 4.0;
+const FEW_STEPS: usize = 12;
 /// Powers of the tolerance by which steps and nodes grow: the table of the dial in `benches/README.md`.
 const STEPS_POWER: f64 = 0.16;
 const NODES_POWER: f64 = 0.066;
@@ -115,7 +116,8 @@ fn trial_scene(scene: &Scene) -> Scene {
     let mut trial = scene.clone();
     trial.accuracy.tolerance = trial_tolerance(scene);
     trial.output.frames = Frames::Spaced { frames: TRIAL_FRAMES, spacing: Spacing::Linear };
-    trial
+    trial.time.max_steps = None; // of other steps
+    trial.renewed()
 }
 
 /// The record of a trial, and the seconds of integration until the end of each step.
@@ -123,13 +125,22 @@ fn run_trial(scene: &Scene) -> Result<(Record, Vec<f64>), SetupError> {
     let mut simulation = Simulation::new(scene)?;
     let (mut step_ends, mut seconds) = (Vec::new(), 0.0);
     let mut under_way = true;
-    while under_way && (seconds < TRIAL_SECONDS || step_ends.len() < LEAST_STEPS) {
+    while under_way && seconds < patience(step_ends.len()) {
         let clock = Instant::now();
         under_way = simulation.step(&mut Quiet);
         seconds += clock.elapsed().as_secs_f64();
         step_ends.push(seconds);
     }
     Ok((simulation.into_record(), step_ends))
+}
+
+/// Seconds of a trial that has taken so many steps: a few more for a few steps that tell something.
+fn patience(steps: usize) -> f64 {
+    match steps {
+        0..2 => f64::INFINITY,
+        2..FEW_STEPS => FOR_FEW_STEPS * TRIAL_SECONDS,
+        _ => TRIAL_SECONDS,
+    }
 }
 
 /// Steps and seconds to `end` of a trial that was given up: as many steps in each decade of the time, and as long ones, as in its

@@ -56,7 +56,12 @@ fn a_step_whose_balance_is_no_number_is_not_taken() {
         let (energy, rates) = word(y[0]);
         let integrals = Integrals::new(0.0, [0.0; INTEGRALS], rates);
         let stepper = Multistep::starting(&mut problem, &y, integrals, tolerance, &mut counters);
-        let options = AdaptiveOptions { end: 1.0, most_steps: 10_000, energy_tolerance: 0.01 * tolerance };
+        let options = AdaptiveOptions {
+            end: 1.0,
+            most_steps: 10_000,
+            energy_tolerance: 0.01 * tolerance,
+            doubts_gradients: false,
+        };
         let mut integration = Adaptive::new(stepper, options, energy, counters);
         while integration.stepper().time() < options.end {
             let report = integration.step(&mut problem).unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -103,7 +108,8 @@ fn what_settles_for_the_worse_is_taken_back() {
     let mut problem = Scalar::new(Rough::default());
     let (energy, rates) = problem.law().word(0.0, start);
     let stepper = Bdf::new(&mut problem, &[start], rates, tolerance, &mut counters);
-    let options = AdaptiveOptions { end: 1.0, most_steps: 10_000, energy_tolerance: 0.1 };
+    let options =
+        AdaptiveOptions { end: 1.0, most_steps: 10_000, energy_tolerance: 0.1, doubts_gradients: false };
     let mut integration = Adaptive::new(stepper, options, energy, counters);
     while integration.stepper().time() < options.end {
         integration.step(&mut problem).expect("a step");

@@ -119,7 +119,12 @@ fn run(gauge: Arc<dyn Gauge>) -> (f64, f64, u64) {
     };
     let (tolerance, mut counters) = (1e-7, Counters::default());
     let stepper = Bdf::new(&mut problem, &state, integral_rates, tolerance, &mut counters);
-    let options = AdaptiveOptions { end: END, most_steps: 10_000, energy_tolerance: 1e-2 * tolerance };
+    let options = AdaptiveOptions {
+        end: END,
+        most_steps: 10_000,
+        energy_tolerance: 1e-2 * tolerance,
+        doubts_gradients: true,
+    };
     let mut steps = Adaptive::new(stepper, options, first, counters);
     let (mut energy, mut time) = (first, 0.0);
     while time < END {

@@ -54,7 +54,8 @@ pub fn run(
     let mut counters = Counters::default();
     let integrals = Integrals::new(0.0, [0.0; INTEGRALS], integral_rates);
     let stepper = Multistep::starting(&mut problem, &state, integrals, tolerance, &mut counters);
-    let options = AdaptiveOptions { end, most_steps, energy_tolerance: 0.01 * tolerance };
+    let options =
+        AdaptiveOptions { end, most_steps, energy_tolerance: 0.01 * tolerance, doubts_gradients: true };
     let mut steps = Adaptive::new(stepper, options, energy, counters);
     let mut error = None;
     while steps.stepper().time() < end && error.is_none() {

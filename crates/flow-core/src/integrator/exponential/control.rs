@@ -1,5 +1,7 @@
 //! Order and size of the next step, and the watch over what limits it.
 
+use serde::{Deserialize, Serialize};
+
 use super::substitution::StepClock;
 use super::sums::Correction;
 use super::{Exponential, HIGHEST_ORDER, MOST_CHANGES, MOST_MOMENTS, weights_at_end};
@@ -23,6 +25,28 @@ const SEARCH: u64 = 16;
 /// Steps do not grow beyond this contraction: at one, rounding would.
 const MOST_CONTRACTION: f64 = 0.7;
 
+/// What the corrector may leave of the way to its fixed point, in units of the tolerance: the differences of its polynomials do not see it.
+const LEFT: f64 = 5.0;
+/// Growth of a step beyond which its contraction is not told by that of the one before.
+const MOST_TOLD: f64 = 1.5;
+
+/// What the stiffness of N does to the steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Stiffness {
+    /// Count of the steps that it has limited.
+    pub limited: u32,
+    /// Contraction of the corrector in the last step, and the size of that.
+    pub last: (f64, f64),
+}
+
+impl Stiffness {
+    /// Contraction of a step of size `step`: in proportion to that, but for a step that grows a lot, of which that says too much.
+    fn contraction(&self, step: f64) -> f64 {
+        let (contraction, size) = self.last;
+        if size > 0.0 { (contraction * (step / size).min(MOST_TOLD)).min(1.0) } else { 0.0 }
+    }
+}
+
 /// Contraction above which steps of order `order` are limited by the stiffness of N: a prediction through k values multiplies errors
 /// of N that alternate from step to step by 2ᵏ − 1, and two corrections shrink them by the square of the contraction.
 fn stiff(order: usize) -> f64 {
@@ -37,7 +61,7 @@ impl Exponential {
 
     /// After an attempt that was thrown away.
     pub(super) fn fail(&mut self, factor: f64) {
-        self.limited += LIMITED;
+        self.stiffness.limited += LIMITED;
         self.pace.fail(on_scale(factor));
     }
 
@@ -83,10 +107,14 @@ impl Exponential {
         [order, order + 1, neighbours[0], neighbours[1]]
     }
 
-    /// Whether the error of the candidate is below the tolerance; what it would be at other orders.
+    /// Whether the error of the candidate, and what its corrector has left, are below the tolerance.
     pub(super) fn judge(&mut self) -> Result<(), Rejection> {
         let order = self.pace.order;
-        let error = self.error(order).unwrap_or(f64::NAN);
+        let contraction = self.stiffness.contraction(self.pace.step);
+        // Where the corrector contracts well, what it leaves is of the size of the differences.
+        let left =
+            if contraction > STIFF { contraction * self.norm.norm(&self.changes[0]) / LEFT } else { 0.0 };
+        let error = self.error(order).map_or(f64::NAN, |error| error.max(left));
         if error <= self.tolerance {
             return Ok(());
         }
@@ -108,6 +136,7 @@ impl Exponential {
     pub(super) fn plan(&mut self, contraction: f64, most_growth: f64) {
         let order = self.pace.order;
         let stretch = self.best_stretch;
+        self.stiffness.last = (contraction, self.pace.step);
         let next = |order, error: Option<f64>, bias| {
             let growth = error.map_or(0.0, |error| self.growth(error, order, bias));
             Next { order, growth, stretch }
@@ -119,12 +148,12 @@ impl Exponential {
         }
         let free = best.growth;
         best.growth = free.min(MOST_CONTRACTION / contraction);
-        self.limited = if contraction > stiff(order) {
+        self.stiffness.limited = if contraction > stiff(order) {
             // What the stiffness leaves in the stiffest modes takes the step out of balance before it shows in its error.
             let lost = free / best.growth.min(most_growth);
-            self.limited + (lost.powi(2) as u32).clamp(1, MOST_LIMITED)
+            self.stiffness.limited + (lost.powi(2) as u32).clamp(1, MOST_LIMITED)
         } else {
-            self.limited.saturating_sub(1)
+            self.stiffness.limited.saturating_sub(1)
         };
         self.pace.go_on(best, most_growth, self.states.times(), on_scale);
     }

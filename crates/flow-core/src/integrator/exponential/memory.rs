@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::control::Stiffness;
 use super::{Exponential, HIGHEST_ORDER, MOST_MOMENTS, Moments, OLDEST_PART, StepClock, Substitution};
 use crate::integrator::Problem;
 use crate::integrator::error_norm::ErrorNorm;
@@ -31,13 +32,13 @@ pub struct ExponentialMemory {
     pub rates: Vec<Vec<f64>>,
     pub(super) part: LinearPart,
     pub(super) part_age: usize,
-    pub(super) limited: u32,
+    pub(super) stiffness: Stiffness,
 }
 
 impl ExponentialMemory {
     /// Of a method that has taken Λ = `part` from its last state, with the rates at its states.
     pub(super) fn new(rates: Vec<Vec<f64>>, part: LinearPart) -> Self {
-        Self { rates, part, part_age: 0, limited: 0 }
+        Self { rates, part, part_age: 0, stiffness: Stiffness::default() }
     }
 
     /// Takes Λ anew from `problem` at `state`; false if it has none.
@@ -49,7 +50,11 @@ impl ExponentialMemory {
     /// Whether it belongs to `points` states of `size` entries.
     pub(in crate::integrator) fn fits(&self, points: usize, size: usize) -> bool {
         let sound = |rate: &Vec<f64>| rate.len() == size && rate.iter().all(|value| value.is_finite());
-        self.rates.len() == points && self.rates.iter().all(sound) && self.part.fits(size)
+        let (contraction, step) = self.stiffness.last;
+        self.rates.len() == points
+            && self.rates.iter().all(sound)
+            && self.part.fits(size)
+            && [contraction, step].iter().all(|value| value.is_finite() && *value >= 0.0)
     }
 }
 
@@ -77,7 +82,7 @@ impl Exponential {
             rests: vec![zero(); MOST_POINTS],
             bases: [zero(), zero()],
             pace: memory.pace.of_order_at_most(HIGHEST_ORDER),
-            limited: own.limited,
+            stiffness: own.stiffness,
             differences: [None; MOST_POINTS + 1],
             predicted: zero(),
             candidate: zero(),
@@ -101,7 +106,7 @@ impl Exponential {
                 rates,
                 part: self.part.clone(),
                 part_age: self.part_age,
-                limited: self.limited,
+                stiffness: self.stiffness,
             }),
             pace: self.pace,
         }
@@ -110,6 +115,6 @@ impl Exponential {
     /// Whether the stiffness of the rest has limited so many steps that an implicit method would do better.
     #[must_use]
     pub fn is_exhausted(&self) -> bool {
-        self.limited >= ENOUGH
+        self.stiffness.limited >= ENOUGH
     }
 }

@@ -21,6 +21,7 @@ use super::linear_part::LinearPart;
 use super::pace::Pace;
 use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
 use crate::geometry::vectors::add_scaled_product;
+use control::Stiffness;
 pub use memory::ExponentialMemory;
 use moments::{Moments, moments_at};
 use polynomials::{Coefficients, of_last_point, of_new_value};
@@ -60,7 +61,7 @@ pub struct Exponential {
     rests: Vec<Vec<f64>>,
     bases: [Vec<f64>; 2],
     pace: Pace,
-    limited: u32,
+    stiffness: Stiffness,
     /// Rate of the clock that would have served the last attempt best.
     best_stretch: f64,
     /// What the last n values of N change instead of n − 1, where it is known.

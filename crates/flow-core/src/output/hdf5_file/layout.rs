@@ -74,7 +74,7 @@ pub(super) static COUNTERS: &[Entry<Counters, u64>] = entries![Counters => u64:
     factorisations, "factorisations", "1";
     solves, "solves with a factorisation", "1";
     remaps, "changes of the nodes or of the gauge", "1";
-    unresolved_steps, "steps whose state the nodes do not resolve: to the tolerance if they are automatic, to a thousandth if they are fixed", "1";
+    unresolved_steps, "steps whose state the nodes do not resolve: to the tolerance if they are automatic, to a thousandth if they are fixed; all if those miss initial data", "1";
 ];
 
 /// Seconds of the whole run, in the order of its course.

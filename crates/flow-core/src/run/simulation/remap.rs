@@ -16,11 +16,6 @@ const COARSE_PART: f64 = 0.1;
 /// Part of the energy lost so far below which an energy counts as zero.
 const ENERGY_FLOOR: f64 = 1e-3;
 
-/// Whether nodes that the scene fixes are too few if they leave such a part of a field unresolved.
-pub(super) fn is_coarse(part: f64, tolerance: f64) -> bool {
-    part > COARSE.max(COARSE_PART * tolerance)
-}
-
 impl Simulation {
     /// Takes other nodes if the state at hand asks for them or allows it.
     pub(super) fn adapt(&mut self, time: f64, energy: f64) {
@@ -52,7 +47,7 @@ impl Simulation {
             let family = self.membrane.flow().grid_and_derivative().1.family();
             let (layout, state) = (self.membrane.layout(), self.integration.stepper().state());
             let part = unresolved(layout, state, layout.nodes(), family);
-            if is_coarse(part, self.tolerance) {
+            if part > COARSE.max(COARSE_PART * self.tolerance) {
                 self.record.counters.unresolved_steps += FIXED_LOOKS;
             }
         }

@@ -3,7 +3,6 @@
 use std::time::Instant;
 
 use super::clocks::Clocks;
-use super::remap::is_coarse;
 use super::{ENERGY_TOLERANCE_SHARE, Simulation};
 use crate::energies::EnergyTerm;
 use crate::flow::MetricRole;
@@ -22,6 +21,9 @@ use crate::run::seconds::Seconds;
 use crate::run::setup::Setup;
 use crate::run::setup_error::SetupError;
 
+/// Part of the initial data that fixed nodes may miss, kinks, and of the tolerance if that is more, without a word.
+const MISSED: f64 = 1e-2;
+const MISSED_TOLERANCES: f64 = 10.0;
 /// Steps that are logged without allocating; beyond, the room doubles now and then.
 const STEP_ROOM: usize = 4096;
 impl Simulation {
@@ -52,6 +54,7 @@ impl Simulation {
     pub(super) fn with(scene: &Scene, own: OwnTerms) -> Result<Self, SetupError> {
         let clock = Instant::now();
         let scene = &scene.clone().checked()?;
+        let doubts_gradients = own.exist();
         let mut setup = Setup::of(scene, own)?;
         let (energy, dissipation, integral_rates) = setup.finish()?;
         let Setup {
@@ -97,6 +100,7 @@ impl Simulation {
             end: end.min(gauges.next_time()),
             most_steps: scene.time.max_steps.unwrap_or(u64::MAX),
             energy_tolerance: ENERGY_TOLERANCE_SHARE * scene.accuracy.tolerance,
+            doubts_gradients,
         };
         let rest = rest_tolerance(scene);
         let frame_times = frame_times(&scene.output, end);
@@ -123,7 +127,8 @@ impl Simulation {
             integration: Adaptive::new(stepper, options, energy, counters),
             gauges,
             adaptation,
-            misses_data: scene.accuracy.nodes != Nodes::Auto && is_coarse(missed, scene.accuracy.tolerance),
+            misses_data: scene.accuracy.nodes != Nodes::Auto
+                && missed > MISSED.max(MISSED_TOLERANCES * scene.accuracy.tolerance),
             mesh,
             remapped_at: 0,
             switches: 0,
