@@ -37,8 +37,6 @@ const PLAIN: f64 = 1e-4;
 const ROUGH: f64 = 2.0;
 /// Part of the energy tolerance below which such an error does not matter.
 const UNSEEN: f64 = 0.1;
-/// Part of the energy tolerance by which the energy of a flow at rest may flicker: late, steps leave their solves' errors in stiff modes.
-const STILL: f64 = 1e-5;
 /// Smallest factor of the next attempt at a step that was thrown away.
 const LEAST_FACTOR: f64 = 0.5;
 const MOST_POLISHES: usize = 2;
@@ -235,8 +233,7 @@ impl<S: Stepper> Adaptive<S> {
                 if imbalance > 1.0 {
                     return Err(self.refuse(Rejection::Error, growth_in_balance(imbalance).max(LEAST_FACTOR)));
                 }
-                let unseen = STILL * self.options.energy_tolerance * energy.abs();
-                self.rest.watch(time, energy, rounding.max(unseen));
+                self.rest.watch(time, energy, rounding);
                 self.energy = energy;
                 self.stepper.accept(problem, integrals, growth_in_balance(imbalance));
                 problem.accepted(time, self.stepper.integrals());
