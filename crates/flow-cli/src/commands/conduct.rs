@@ -56,9 +56,7 @@ impl Conduct {
             print::data(&info::json(&record))?;
         } else if !self.quiet {
             print::talk(&closing_line(&record, seconds));
-            for warning in warnings(&record) {
-                print::talk(&format!("warning: {warning}"));
-            }
+            say_doubts(&record);
             print::data(&output.display().to_string())?;
         }
         outcome(record, output)
@@ -72,6 +70,13 @@ fn outcome(record: Record, output: &Path) -> Result<(), CliError> {
         StopReason::EndTime | StopReason::Equilibrium | StopReason::Contact => Ok(()),
         StopReason::Interrupted => Err(CliError::Stopped { time, output }),
         StopReason::Failed(message) => Err(CliError::Numerical { message, output }),
+    }
+}
+
+/// Says what makes the result doubtful.
+pub fn say_doubts(record: &Record) {
+    for warning in warnings(record) {
+        print::talk(&format!("warning: {warning}"));
     }
 }
 

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use flow_core::output::atomic_file::check_writable;
 use flow_core::output::checkpoint::{Found, Lock, Pair};
 use flow_core::output::{StorageError, hdf5_file};
-use flow_core::run::{Record, StopReason, warnings};
+use flow_core::run::{Record, StopReason};
 
-use super::conduct::Conduct;
+use super::conduct::{Conduct, say_doubts};
 use super::info;
 use crate::error::CliError;
 use crate::print;
@@ -68,9 +68,7 @@ pub fn already_done(conduct: &Conduct, record: &Record, output: &Path) -> Result
         print::data(&info::json(record))?;
     } else if !conduct.quiet {
         print::talk(&format!("nothing to do: {}", record.stop_reason.message()));
-        for warning in warnings(record) {
-            print::talk(&format!("warning: {warning}"));
-        }
+        say_doubts(record);
         print::data(&output.display().to_string())?;
     }
     Ok(())

@@ -37,7 +37,7 @@ impl FluxPoints {
         let mut out = vec![0.0; field.len()];
         self.grid.transform(field, &mut self.spectrum);
         for (mode, value) in self.spectrum.iter_mut().enumerate() {
-            *value *= Complex64::cis(-0.5 * self.grid.wave_number(mode) / self.grid.nodes() as f64);
+            *value *= self.grid.half_step(mode).conj();
         }
         self.grid.synthesise(&self.spectrum, &mut out);
         out

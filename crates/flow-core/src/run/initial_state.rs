@@ -39,14 +39,9 @@ const MISSED: f64 = 10.0;
 impl InitialState {
     /// That of `scene`, whose curve is `curve`, and the part of the data that its nodes miss.
     pub fn of(scene: &Scene, curve: &ByArcLength, own: &OwnTerms) -> Result<(Self, f64), SetupError> {
-        let (found, missed) = match scene.accuracy.nodes {
-            Nodes::Count(nodes) => {
-                let found = Self::on(scene, curve, nodes)?;
-                let missed = found.missed(scene, curve)?;
-                (found, missed)
-            }
-            Nodes::Auto => Self::resolved(scene, curve, own)?,
-        };
+        let Nodes::Count(nodes) = scene.accuracy.nodes else { return Self::resolved(scene, curve, own) };
+        let found = Self::on(scene, curve, nodes)?;
+        let missed = found.missed(scene, curve)?;
         Ok((found, missed))
     }
 

@@ -164,6 +164,28 @@ pub struct Record {
     pub provenance: Provenance,
 }
 
+#[cfg(test)]
+impl Record {
+    /// A record of `frames` and `steps` alone.
+    pub(crate) fn of_frames_and_steps(frames: Vec<Frame>, steps: StepLog) -> Self {
+        Self {
+            title: String::new(),
+            scene: String::new(),
+            resolved_scene: String::new(),
+            energy_terms: Vec::new(),
+            densities: Vec::new(),
+            fields: Vec::new(),
+            diagnostics: Vec::new(),
+            frames,
+            steps,
+            counters: Counters::default(),
+            seconds: Seconds::default(),
+            stop_reason: StopReason::EndTime,
+            provenance: Provenance::here(),
+        }
+    }
+}
+
 impl Record {
     /// All frames on the largest number of nodes among them.
     #[must_use]

@@ -112,28 +112,15 @@ fn time_axis(times: impl Iterator<Item = f64> + Clone) -> Axis {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::{Frame, Provenance, StepLog, StopReason};
+    use crate::run::{Frame, StepLog};
 
     /// Frames and steps at these times with these values, which are energies and lengths alike.
     fn panel(frames: &[[f64; 2]], steps: &[[f64; 2]]) -> HistoryPanel {
         let frame =
             |&[time, value]: &[f64; 2]| Frame { time, energy: value, length: value, ..Frame::default() };
         let column = |k: usize| steps.iter().map(|step| step[k]).collect();
-        HistoryPanel::new(&Record {
-            title: String::new(),
-            scene: String::new(),
-            resolved_scene: String::new(),
-            energy_terms: Vec::new(),
-            densities: Vec::new(),
-            fields: Vec::new(),
-            diagnostics: Vec::new(),
-            frames: frames.iter().map(frame).collect(),
-            steps: StepLog { time: column(0), energy: column(1), ..StepLog::default() },
-            counters: crate::run::Counters::default(),
-            seconds: crate::run::Seconds::default(),
-            stop_reason: StopReason::EndTime,
-            provenance: Provenance::here(),
-        })
+        let steps = StepLog { time: column(0), energy: column(1), ..StepLog::default() };
+        HistoryPanel::new(&Record::of_frames_and_steps(frames.iter().map(frame).collect(), steps))
     }
 
     #[test]

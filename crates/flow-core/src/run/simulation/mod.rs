@@ -227,7 +227,6 @@ impl Simulation {
         steps.order.push(report.order as u8);
         steps.nodes.push(self.membrane.layout().nodes() as u32);
         steps.rejections.push(report.rejections);
-        self.record.counters.unresolved_steps += u64::from(self.misses_data);
     }
 
     fn save_frames(&mut self) {

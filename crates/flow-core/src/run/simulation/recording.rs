@@ -68,7 +68,9 @@ impl Simulation {
     /// Counters with the time spent.
     pub(super) fn counters_with_time(&self) -> Counters {
         let Counters { integration_seconds, unresolved_steps, .. } = self.record.counters;
-        Counters { unresolved_steps, integration_seconds, ..*self.integration.counters() }
+        let counters = *self.integration.counters();
+        let unresolved_steps = if self.misses_data { counters.steps } else { unresolved_steps };
+        Counters { unresolved_steps, integration_seconds, ..counters }
     }
 
     pub(super) fn stop(&mut self, reason: StopReason) {

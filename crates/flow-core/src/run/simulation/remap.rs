@@ -32,7 +32,7 @@ impl Simulation {
             Look::Unresolved => (false, None),
             Look::Hopeless(error) => (false, Some(error)),
         };
-        self.record.counters.unresolved_steps += u64::from(!served && !self.misses_data);
+        self.record.counters.unresolved_steps += u64::from(!served);
         let seconds = clock.elapsed().as_secs_f64();
         self.record.counters.integration_seconds += seconds;
         self.clocks.remaps += seconds;
@@ -43,7 +43,7 @@ impl Simulation {
 
     /// On nodes that the scene fixes: counts steps that they are far from resolving.
     fn count_unresolved(&mut self) {
-        if !self.misses_data && self.counters().steps.is_multiple_of(FIXED_LOOKS) {
+        if self.counters().steps.is_multiple_of(FIXED_LOOKS) {
             let family = self.membrane.flow().grid_and_derivative().1.family();
             let (layout, state) = (self.membrane.layout(), self.integration.stepper().state());
             let part = unresolved(layout, state, layout.nodes(), family);

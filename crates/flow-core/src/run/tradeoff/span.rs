@@ -73,11 +73,8 @@ fn part_at(value: f64, slopes: [f64; 2]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::provenance::Provenance;
     use super::super::super::record::{Frame, StepLog};
-    use super::super::super::seconds::Seconds;
     use super::*;
-    use crate::integrator::Counters;
 
     fn record(times: &[f64], energies: &[f64], dissipations: &[f64]) -> Record {
         let frame = |i: usize| Frame {
@@ -86,26 +83,13 @@ mod tests {
             dissipation: dissipations[i],
             ..Frame::default()
         };
-        Record {
-            title: String::new(),
-            scene: String::new(),
-            resolved_scene: String::new(),
-            energy_terms: Vec::new(),
-            densities: Vec::new(),
-            fields: Vec::new(),
-            diagnostics: Vec::new(),
-            frames: vec![frame(0), frame(times.len() - 1)],
-            steps: StepLog {
-                time: times[1..].to_vec(),
-                energy: energies[1..].to_vec(),
-                dissipation: dissipations[1..].to_vec(),
-                ..StepLog::default()
-            },
-            counters: Counters::default(),
-            seconds: Seconds::default(),
-            stop_reason: StopReason::EndTime,
-            provenance: Provenance::here(),
-        }
+        let steps = StepLog {
+            time: times[1..].to_vec(),
+            energy: energies[1..].to_vec(),
+            dissipation: dissipations[1..].to_vec(),
+            ..StepLog::default()
+        };
+        Record::of_frames_and_steps(vec![frame(0), frame(times.len() - 1)], steps)
     }
 
     #[test]
