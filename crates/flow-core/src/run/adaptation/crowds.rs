@@ -13,8 +13,19 @@ use crate::run::resolution::{LEAST_NODES, MOST_NODES, size_above, unresolved};
 const NEXT: f64 = 1.2;
 /// More nodes at a time than this factor are a guess.
 const MOST_GROWTH: usize = 2;
+/// What a spectrum says of fewer nodes holds within this factor: they would crowd a little differently.
+const FORETOLD: f64 = 2.0;
 /// A grading that spreads less than this is not worth its products.
 const LEAST_SPREAD: f64 = 2.0;
+
+/// Nodes that were tried.
+struct Trial {
+    /// Part of the state that they leave unresolved.
+    part: f64,
+    /// The next fewer ones, and what they would leave as far as the spectrum on these tells.
+    fewer: Option<(usize, f64)>,
+    plan: Plan,
+}
 
 impl Adaptation {
     /// The fewest nodes found, near `nodes` of them, on which only the part `aim` of the spectral `state` of `membrane` is not
@@ -42,32 +53,31 @@ impl Adaptation {
             let layout = Layout::new(nodes, densities);
             let mut way = Regrading::new(flow, layout, grading.clone(), turning_number);
             let trial = way.apply(flow, state).ok()?;
-            let part = if (nodes as f64) < equidistant * sparsest(grading.as_ref()) {
-                f64::INFINITY
-            } else {
-                unresolved(layout, &trial, nodes, self.families[usize::from(spread)])
-            };
+            let part_on = |nodes| unresolved(layout, &trial, nodes, self.families[usize::from(spread)]);
+            let too_few = (nodes as f64) < equidistant * sparsest(grading.as_ref());
+            let part = if too_few { f64::INFINITY } else { part_on(nodes) };
+            let fewer = fewer(nodes).map(|fewer| (fewer, part_on(fewer)));
             let mesh = Mesh { nodes, samples: spread.then_some(samples) };
-            Some((part, Plan { mesh, way: Way::Regraded(grading, Box::new(way)) }))
+            let plan = Plan { mesh, way: Way::Regraded(grading, Box::new(way)) };
+            Some(Trial { part, fewer, plan })
         };
         let mut best = attempt(nodes)?;
-        if !self.counts {
-            return Some(best);
-        }
         let most = MOST_NODES.min(MOST_GROWTH * nodes);
-        if best.0 > aim {
-            while best.0 > aim && best.1.mesh.nodes < most {
-                best = attempt(size_above(NEXT * best.1.mesh.nodes as f64))?;
+        if self.counts && best.part > aim {
+            while best.part > aim && best.plan.mesh.nodes < most {
+                best = attempt(size_above(NEXT * best.plan.mesh.nodes as f64))?;
             }
-            return Some(best); // the fewer ones have been tried
-        }
-        while let Some(nodes) = fewer(best.1.mesh.nodes) {
-            match attempt(nodes) {
-                Some(fewer) if fewer.0 <= aim => best = fewer,
-                _ => break,
+        } else if self.counts {
+            while let Some((nodes, foretold)) = best.fewer
+                && foretold <= FORETOLD * aim
+            {
+                match attempt(nodes) {
+                    Some(fewer) if fewer.part <= aim => best = fewer,
+                    _ => break,
+                }
             }
         }
-        Some(best)
+        Some((best.part, best.plan))
     }
 }
 
