@@ -48,7 +48,7 @@ class Frames:
     def dissipation(self) -> Array:
         """Dissipation, minus the rate of change of the energy, shape (frame,), in energy / time (F6).
 
-        Like :attr:`normal_velocity` it is that of the state as it is, and not bounded by the tolerance.
+        Like :attr:`normal_velocity` it is computed from the state, and not controlled by the tolerance.
         """
         return self._record.values("dissipation")
 
@@ -62,7 +62,7 @@ class Frames:
 
     @cached_property
     def remap_error(self) -> Array:
-        """Energy that changes of the nodes or of the gauge have added so far, shape (frame,)."""
+        """Energy that changes of the nodes or of the gauge have added so far, shape (frame,), in units of energy."""
         return self._record.values("remap_error")
 
     @cached_property
@@ -118,8 +118,9 @@ class Frames:
     def normal_velocity(self) -> Array:
         """Velocity V along the outward normal, shape (frame, node), in length / time (F4).
 
-        The tolerance bounds the state, not V, whose derivatives multiply what is left in the shortest waves: where V
-        matters late in a run, ask for a tolerance a hundred to a thousand times tighter.
+        The tolerance controls the state, not V, whose further derivatives amplify the error in the shortest waves. The
+        error is largest in frames between two steps, which are interpolated. Where V matters late in a run, take it from
+        :attr:`Simulation.state` after ``run(until=…)``, or ask for a tolerance a hundred to a thousand times tighter.
         """
         return self._record.field("normal_velocity")
 
@@ -149,8 +150,8 @@ class Frames:
     def diagnostics(self) -> Mapping[str, Array]:
         """How far the curve is from an incompressible one, by name, shape (frame,).
 
-        With an ``energy.membrane`` of a density ρ that diffuses, under the normal mobility ``identity``; else empty.
-        Both are the root of an integral of squares over arc length, with ρ̄ and 𝓘 of (F11) and (F8) in ``THEORY.md``:
+        There are two of them if the scene has an ``energy.membrane`` of a density ρ that diffuses, and the normal mobility
+        ``identity``; otherwise none. Each is the L² norm over arc length of a difference, with ρ̄ of (F11) and 𝓘 of (F8):
 
         - ``incompressible_distance``: of ρ - 1 - ερ̄, in density × length^½;
         - ``velocity_residual``: of V - 𝓘f, the normal velocity less that of the incompressible flow without the
@@ -161,7 +162,7 @@ class Frames:
 
     @cached_property
     def steps(self) -> Mapping[str, NDArray[Any]]:
-        """The log of accepted steps, arrays of shape (step,), copied once: files and pictures need the log as well.
+        """The log of accepted steps by name, arrays of shape (step,).
 
         ``time``, ``energy`` and ``dissipation`` at the end of the step, its ``size``, the ``order`` of the method, the
         number of ``nodes``, and the attempts rejected before it by cause: ``rejections_error``, ``rejections_solver``,

@@ -24,13 +24,13 @@ __all__ = ["Array", "Result", "open"]
 
 
 class Result(Frames):
-    """A finished or interrupted run: what it saw, how it ended and what it cost.
+    """A finished, interrupted or failed run: its saved frames, how it ended and what it cost.
 
-    All arrays are read-only NumPy arrays of ``float64``, made at first use: one entry per saved frame (the first is
-    the initial state, the last the final one), and per node of the curve. Units are those of the scene; numbers in
-    parentheses are equations of ``THEORY.md``.
+    Arrays are read-only NumPy arrays of ``float64``, made when they are first used. They have one entry per saved frame
+    (the first is the initial state, the last the final one), and one per node of the curve where their shape says so.
+    Units are those of the scene. Numbers in parentheses are equations of ``THEORY.md``.
 
-    Results come from :func:`curveflow.run` and :func:`curveflow.open`. They can be pickled, as the bytes of their file.
+    Results come from :func:`curveflow.run`, :meth:`Simulation.result` and :func:`curveflow.open`. They can be pickled.
     """
 
     def __init__(self, record: _curveflow.Record, scene: Scene | None = None) -> None:
@@ -54,9 +54,9 @@ class Result(Frames):
 
     @cached_property
     def warnings(self) -> tuple[str, ...]:
-        """What makes the result doubtful although the run came to its end, a sentence each; empty if there is nothing.
+        """Reasons to doubt the result although the run came to its end, a sentence each; empty if there are none.
 
-        Nodes that did not resolve most of the steps, or energy that was neither kept nor dissipated.
+        They are nodes that did not resolve most of the steps, and energy that was neither kept nor dissipated.
         """
         return tuple(self._record.warnings)
 
@@ -67,12 +67,12 @@ class Result(Frames):
 
     @cached_property
     def scene(self) -> Scene:
-        """The scene of the run, which makes it again: ``cf.run(result.scene)`` gives the same bits on the same machine.
+        """The scene of the run. It reproduces the run: ``cf.run(result.scene)`` gives the same bits on the same machine.
 
-        It is as given, except that points that were read from a file stand in it: no other file is needed.
+        It is as given, except that it contains points that were read from a file: no other file is needed.
 
         Raises:
-            SceneError: the scene in a result file is none of this version.
+            SceneError: this version cannot read the scene stored in the result file.
         """
         return self._scene or Scene._of(_curveflow.Scene.of_record(self._record))
 

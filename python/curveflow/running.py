@@ -38,22 +38,26 @@ def run(
 ) -> Result:
     """Run a scene to its equilibrium or end time.
 
-    The interpreter lock is released meanwhile, so threads run scenes at the same time.
+    The interpreter lock is released during the run, so threads can run scenes at the same time.
 
-    Ctrl-C (in the main thread) stops the run after the step at hand, within a second unless a step alone takes longer (as
-    with the dense solver on a thousand nodes): no exception is raised, and the result holds what was computed up to then,
-    with ``status == "interrupted"`` and ``success == False``. So does a failure of the integration, with
-    ``status == "failed"``: check ``result.success``.
+    A run that is stopped or fails raises no exception: check ``result.success``. Ctrl-C (in the main thread) stops it after
+    the current step, within a second unless a single step takes longer (as with the dense solver on a thousand nodes);
+    ``result.status`` is then ``"interrupted"``. If the integration fails, it is ``"failed"``. In both cases the result
+    holds what was computed up to then.
 
     Args:
         scene: what to run.
-        progress: show where the run stands on standard error: a line that is kept up to date on a terminal, a line
+        progress: show on standard error how far the run has come: a line that is kept up to date on a terminal, a line
             every 30 s elsewhere.
-        callback: called with a :class:`Progress` after every accepted step. It stops the run by raising
-            ``StopIteration``, which ends it as Ctrl-C does; any other exception is passed on, and the run is lost.
+        callback: called with a :class:`Progress` after every accepted step. By raising ``StopIteration`` it stops the run
+            as Ctrl-C does; any other exception is passed on, and the run is lost.
+
+    Returns:
+        The frames, the log of steps, and how the run ended.
 
     Raises:
-        SetupError: the scene makes no initial state.
+        SetupError: no initial state can be made from the scene: its curve is open, its nodes are too few, ….
+        TypeError: ``scene`` is no :class:`Scene`.
     """
     with watching(progress, callback) as (watch, interval):
         result = Result(_curveflow.run(Scene._core(scene), watch, interval), scene)

@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 class Scene:
     """A scene that has been checked: a curve, its densities and energy, how it flows and how accurately.
 
-    Made of objects, or by :meth:`load`, :meth:`parse` or :meth:`shipped`; never changed afterwards, but
-    ``dataclasses.replace`` and :meth:`with_values` make others of it. Scenes are equal if they mean the same, and
-    can be pickled. A scene holds everything as it was understood, with all defaults:
+    A scene is made of objects, as below, or by :meth:`load`, :meth:`parse` or :meth:`shipped`. It cannot be changed;
+    ``dataclasses.replace`` and :meth:`with_values` make new scenes from it. Scenes are equal if they mean the same, and
+    can be pickled. All defaults are filled in:
 
     >>> import curveflow as cf
     >>> scene = cf.Scene(curve=cf.Circle(1), energy=[cf.Bending(1)], time=cf.Time(2.5))
@@ -32,9 +32,24 @@ class Scene:
     >>> scene == cf.Scene.parse(scene.to_toml())
     True
 
+    Lengths, times, energies and densities are in units of your choice, the same throughout a scene. All arguments are
+    given by name.
+
+    Args:
+        title: for pictures and files.
+        curve: initial curve: ``Circle``, ``Ellipse``, ``Trillium``, ``FigureEight``, ``Polar``, ``Parametric`` or
+            ``Points``.
+        density: densities carried by the curve, a list of ``Density``.
+        energy: terms of the energy, at most one of each class: ``Bending``, ``Regularization``, ``Length``, ``Area``,
+            ``Adhesion``, ``Agents``, ``Membrane``, ``Packing``, ``Local``.
+        flow: mobility of the curve and gauge of its nodes.
+        time: when to stop.
+        accuracy: tolerance and number of nodes.
+        output: which states to save.
+
     Raises:
-        SceneError: the objects make no scene; the message names keys.
-        TypeError: something else than objects of tables, or a value that is neither number, text, truth value nor list.
+        SceneError: the objects do not make a valid scene; the message names the keys at fault.
+        TypeError: an argument is not an object of its table, or a value is no number, text, truth value or list.
     """
 
     title: str = ""
@@ -85,7 +100,7 @@ class Scene:
 
         Args:
             text: the scene in TOML.
-            name: its name in messages; files of points are looked for in the folder of this name.
+            name: its name in messages, as if it were the path of the text: files of points are looked for in that folder.
 
         Raises:
             SceneError: the text is not a scene; the message names keys and lines.
@@ -110,21 +125,21 @@ class Scene:
         """Return the scene of a result, which makes the same result again; the same as ``result.scene``.
 
         Raises:
-            SceneError: the scene in a result file is none of this version.
+            SceneError: this version cannot read the scene stored in the result file.
         """
         return result.scene
 
     def with_values(self, values: Mapping[str, object]) -> Scene:
-        """Return this scene with other values, like ``--set`` on the command line.
+        """Return a copy of this scene with other values, like ``--set`` on the command line.
 
         Args:
             values: dotted keys and their values: ``{"accuracy.tolerance": 1e-4, "density.protein.initial": "0.5"}``.
                 Numbers, texts (formulas too), truth values, lists, arrays and the objects of whole tables are allowed;
-                missing keys are added, and ``None`` takes a key out.
+                missing keys are added, and ``None`` removes a key.
 
         Raises:
-            SceneError: what the changes make of the scene is not valid.
-            TypeError: a value is of another type.
+            SceneError: the changed scene is not valid.
+            TypeError: a value is of another type than those above.
         """
         changes = [(key, "" if value is None else writing.value(key, value)) for key, value in values.items()]
         # The points of this scene, not what their file holds by now, unless another file is named.
@@ -135,9 +150,9 @@ class Scene:
 
     @property
     def text(self) -> str:
-        """The scene as given, verbatim; of objects, or after :meth:`with_values`, TOML without comments.
+        """The scene as given, verbatim; if it was made of objects or by :meth:`with_values`, TOML without comments.
 
-        Points that were read from a file stand in it after :meth:`with_values`, in copies and after pickling.
+        After :meth:`with_values`, copying or pickling, it contains the points themselves instead of the name of their file.
         """
         return self._native.text
 

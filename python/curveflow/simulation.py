@@ -87,7 +87,7 @@ def _rounding(time: float, interval: float) -> float:
 
 
 class Simulation:
-    """A scene under way.
+    """A run that you drive yourself, step by step or from time to time.
 
     >>> import curveflow as cf
     >>> simulation = cf.Simulation(cf.Scene.shipped("circle"))
@@ -102,7 +102,8 @@ class Simulation:
         scene: what to simulate.
 
     Raises:
-        SetupError: the scene makes no initial state.
+        SetupError: no initial state can be made from the scene.
+        TypeError: ``scene`` is no :class:`Scene`.
     """
 
     def __init__(self, scene: Scene) -> None:
@@ -112,9 +113,9 @@ class Simulation:
 
     @classmethod
     def resume(cls, path: str | os.PathLike[str]) -> Simulation:
-        """Go on from a checkpoint, with the same bits as if the simulation had not stopped; callbacks are not in it.
+        """Continue from a file of :meth:`checkpoint`, with the same bits as if the simulation had not stopped.
 
-        What was over, also by a failure, is over still.
+        Callbacks are not in the file: add them again. A simulation that had ended, or failed, has still done so.
 
         Raises:
             StorageError: the file is no checkpoint of this version, or is damaged.
@@ -144,7 +145,10 @@ class Simulation:
 
     @property
     def status(self) -> str | None:
-        """Why the simulation ended, as :attr:`Result.status`; ``None`` while it can go on."""
+        """Why the simulation ended, as :attr:`Result.status`; ``None`` while it can go on.
+
+        Until then :meth:`result` has the status ``"interrupted"``.
+        """
         return self._native.status
 
     @property
@@ -154,10 +158,9 @@ class Simulation:
 
     @property
     def state(self) -> State:
-        """The state at this time, computed anew at each use.
+        """The state at this time: curve, densities, energy and velocity, as a :class:`State`.
 
-        Its arrays are those of a frame made for them, not copies, and later steps do not change them. They are no views of
-        the simulation: that holds Fourier coefficients, and overwrites them in each step.
+        It is computed at each use: keep it in a variable if you need it more than once. Later steps do not change it.
         """
         (time, energy, dissipation, length, area), position, nodal, density = self._native.state()
         curvature, metric, normal_velocity = nodal
@@ -183,17 +186,17 @@ class Simulation:
     ) -> None:
         """Call ``callback`` with this simulation on a schedule: :meth:`run` does so, :meth:`step` does not.
 
-        It may look at everything, and stop the run by raising ``StopIteration`` (others that are due are called first); other
-        exceptions are passed on. The simulation can go on after either.
+        It may look at everything, and stop the run by raising ``StopIteration``; other callbacks that are due are called
+        first. Other exceptions are passed on. The simulation can go on after either.
 
         Args:
             callback: what to call.
             interval: simulated time between calls, at its multiples; a step ends at each of them, but for rounding.
-            steps: accepted steps between calls, instead.
+            steps: accepted steps between calls. Give either this or ``interval``.
 
         Raises:
             TypeError: ``callback`` cannot be called, or ``steps`` is no integer.
-            ValueError: not one of ``interval`` and ``steps`` is given, or it is not positive.
+            ValueError: both ``interval`` and ``steps`` are given, or neither, or the value is not positive.
         """
         if not callable(callback):
             raise TypeError(f"callback is {callback!r:.60}, which cannot be called")
@@ -208,7 +211,7 @@ class Simulation:
         self._scheduled.append(scheduled)
 
     def step(self) -> bool:
-        """Take one accepted step; returns whether there is more to do.
+        """Take one accepted step; does nothing once the simulation is :attr:`done`. Returns whether there is more to do.
 
         Raises:
             KeyboardInterrupt: on Ctrl-C, after the step; the simulation can go on.
@@ -228,10 +231,11 @@ class Simulation:
     ) -> bool:
         """Run until a time, or to the end of the scene; returns whether there is more to do.
 
-        Callbacks of :meth:`add_callback` that were due when a run was stopped are called first.
+        Callbacks of :meth:`add_callback` that were due when a run was stopped are called first. A failure of the integration
+        raises nothing: check :attr:`status`.
 
         Args:
-            until: simulated time at which the last step ends.
+            until: simulated time, at which the last step ends exactly; to the end of the scene unless given.
             progress: show where the run stands on standard error.
             callback: called with a :class:`Progress` after every accepted step; it cannot use the simulation, which
                 callbacks of :meth:`add_callback` can. It stops the run by raising ``StopIteration``; other exceptions are
@@ -275,11 +279,11 @@ class Simulation:
         return goes_on
 
     def result(self) -> Result:
-        """What there is so far, as :func:`run` returns it."""
+        """What was computed so far, as :func:`run` returns it."""
         return Result(self._native.record(), self._scene)
 
     def checkpoint(self, path: str | os.PathLike[str]) -> None:
-        """Write all that it takes to go on by :meth:`resume`; an existing file is replaced once the new one is whole.
+        """Write a file from which :meth:`resume` can continue; an existing file is replaced once the new one is whole.
 
         Raises:
             StorageError: the file cannot be written.

@@ -8,16 +8,28 @@ from .scene import Scene
 
 
 class System:
-    """dy/dt = f(y) of a scene, with its implicit operator J and a preconditioner of I - gamma J.
+    """The ordinary differential equations dy/dt = f(y) of a scene, for an integrator of your own.
 
-    J = -K Hess F is what the implicit steps of Curveflow take for the Jacobian: the derivative of f without the terms that vanish
-    where the force does (F7). It is the Jacobian at rest; elsewhere Newton's method with it converges linearly, and fast.
+    :func:`curveflow.run` needs none of this. The state ``y`` has the shape (size,), with ``size = initial.size``. It holds
+    the Fourier coefficients of curvature × metric and of each density × metric, with the co-moving gauge those of the metric
+    too, and last the length; :attr:`blocks` says where. Those of a field ``u`` are ``numpy.fft.rfft(u) / node count``, as
+    real and imaginary parts in turn.
 
-    For those who bring their own integrator; :func:`curveflow.run` needs none of this. The state ``y`` holds the Fourier
-    coefficients of curvature and densities per unit parameter (real and imaginary parts in turn), then the length.
+    For implicit methods there are an operator J and a preconditioner of I - gamma J. J = -K Hess F (F7) is what Curveflow's own
+    implicit steps use as the Jacobian: the derivative of f without the terms that vanish where the force does. At equilibrium
+    it is the Jacobian; elsewhere Newton's method with it converges linearly, and fast.
 
-    Arrays are read and written in place, without the interpreter lock: other threads go on, and must not write to them
-    meanwhile. Calls on one system wait for each other.
+    Arrays are contiguous ``float64`` of shape (size,), read and written in place. The interpreter lock is released during a
+    call: other threads must not write to its arrays meanwhile. Calls on one system wait for each other. The number of nodes
+    is fixed, also with ``accuracy.nodes = "auto"``.
+
+    Args:
+        scene: whose equations.
+
+    Raises:
+        SetupError: no initial state can be made from the scene.
+        TypeError: ``scene`` is no :class:`Scene`; in the methods, an array of another type or layout.
+        ValueError: in the methods, an array of another size.
 
     >>> import curveflow as cf
     >>> system = cf.System(cf.Scene.shipped("circle"))
@@ -31,22 +43,22 @@ class System:
 
     @property
     def initial(self) -> NDArray[np.float64]:
-        """Initial state, closed to rounding. Shape (size,), read-only; the same array at each use."""
+        """Initial state, of a curve that is closed to rounding; shape (size,), read-only, the same array at each use."""
         return self._native.initial
 
     @property
     def blocks(self) -> list[slice]:
-        """Where curvature, each density and the length stand in the state."""
+        """Slices of the state: curvature, each density, with the co-moving gauge the metric, the length."""
         return [slice(start, end) for start, end in self._native.blocks]
 
     def rate(self, y: NDArray[np.float64], out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
-        """f(y), into ``out`` if given (contiguous float64, shape (size,))."""
+        """Return f(y), in ``out`` if that is given, shape (size,)."""
         out = np.empty_like(y) if out is None else out
         self._native.rate(y, out)
         return out
 
     def linearise(self, y: NDArray[np.float64], out: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
-        """Freeze the implicit operator J at ``y``; returns f(y)."""
+        """Evaluate J at ``y``, for the methods below, and return f(y), in ``out`` if that is given."""
         out = np.empty_like(y) if out is None else out
         self._native.linearise(y, out)
         return out
@@ -54,7 +66,7 @@ class System:
     def jacobian_product(
         self, v: NDArray[np.float64], out: NDArray[np.float64] | None = None
     ) -> NDArray[np.float64]:
-        """J v at the state of the last :meth:`linearise`; J leaves out of f's derivative what vanishes with the force (F7).
+        """Return J v, with J of the last :meth:`linearise`, in ``out`` if that is given.
 
         Raises:
             ValueError: there was no :meth:`linearise` yet.
@@ -64,7 +76,13 @@ class System:
         return out
 
     def factorise(self, gamma: float) -> bool:
-        """Prepare the preconditioner of I - ``gamma`` J at the state of the last :meth:`linearise`; false if that fails.
+        """Prepare the preconditioner of I - ``gamma`` J, with J of the last :meth:`linearise`.
+
+        Args:
+            gamma: factor of J, in units of time, at least 0.
+
+        Returns:
+            Whether the factorisation succeeded.
 
         Raises:
             ValueError: ``gamma`` is negative or not finite, or there was no :meth:`linearise` yet.
@@ -72,9 +90,9 @@ class System:
         return self._native.factorise(gamma)
 
     def precondition(self, r: NDArray[np.float64]) -> None:
-        """Overwrite ``r`` by the approximate solution of (I - gamma J) x = r.
+        """Overwrite ``r`` by an approximate solution x of (I - gamma J) x = r, with gamma of the last :meth:`factorise`.
 
         Raises:
-            ValueError: there was no :meth:`factorise` yet that succeeded.
+            ValueError: no :meth:`factorise` has succeeded yet.
         """
         self._native.precondition(r)
