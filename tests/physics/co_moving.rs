@@ -238,3 +238,40 @@ fn expressions_of_slopes_take_few_iterations_where_nodes_move() {
     assert_eq!(record.stop_reason, StopReason::EndTime);
     assert!(record.counters.krylov_iterations < 10 * record.counters.newton_iterations);
 }
+
+/// The band of moving nodes has as many of them as the flow: on more than it had, this flow took steps of 1e-7.
+#[test]
+fn many_moving_nodes_take_few_steps() {
+    let record = run(&shipped(
+        "three_fold",
+        &[
+            ("flow.gauge", "'co-moving'"),
+            ("accuracy.nodes", "1296"),
+            ("accuracy.tolerance", "1e-4"),
+            ("time.end", "0.02"),
+            ("time.max_steps", "300"),
+        ],
+    ));
+    println!("{:?}", record.counters);
+    assert_eq!(record.stop_reason, StopReason::EndTime);
+    assert!(record.counters.rejections.solver < 5);
+}
+
+/// A step that is shorter than the rounding of the state does not move it, and says nothing of how far it is from rest.
+#[test]
+fn a_switch_at_once_is_no_rest() {
+    for time in ["1e-16", "1e-18", "1e-20"] {
+        let record = run(&scene(&format!(
+            "
+            curve = {{ shape = 'circle', radius = 1.0 }}
+            energy.bending.rigidity = 1.0
+            flow = {{ gauge = 'co-moving', switch = [{{ time = {time}, gauge = 'scaled-arc-length' }}] }}
+            time.end = 0.5
+            "
+        )));
+        assert_eq!(record.stop_reason, StopReason::EndTime, "{time}");
+        // E = π/R, R⁴ = 1 + 2t.
+        let exact = std::f64::consts::PI / 2.0_f64.powf(0.25);
+        assert!((last(&record).energy / exact - 1.0).abs() < 1e-4, "{time}: {}", last(&record).energy);
+    }
+}

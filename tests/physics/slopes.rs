@@ -72,3 +72,39 @@ fn mixed_slopes_take_few_iterations() {
         assert_eq!(record.counters.rejections.solver, 0);
     }
 }
+
+/// Between the nodes the sawtooth of a field is zero: what an expression holds besides slopes would not cost it anything there.
+#[test]
+fn what_stands_beside_slopes_costs_the_sawtooth() {
+    let end = |energies: &str, nodes: &str, gauge: &str| {
+        let record = run(&scene(&format!(
+            "
+            curve = {{ shape = 'polar', r = '1 + 0.25*cos(3*phi)' }}
+            density = [{{ name = 'a', initial = '0.8 + 0.2*cos(4*pi*s)', mobility = 'diffusion' }}]
+            flow.gauge = '{gauge}'
+            time = {{ end = 0.05, max_steps = 200, stop_at_equilibrium = false }}
+            accuracy.nodes = {nodes}
+            {energies}
+            "
+        )));
+        assert_eq!(record.stop_reason, StopReason::EndTime, "{energies} {nodes} {gauge}");
+        let frame = record.frames.last().expect("a frame");
+        [frame.energy, frame.length]
+    };
+    let together = [
+        "energy.local.expression = '0.5*(kappa - a)^2 + 0.5*(a - 1)^2 + 0.05*a_sigma^2'",
+        "energy.local.expression = '((kappa - a)^2 + (a - 1)^2 + 0.1*a_sigma^2)/2'",
+    ];
+    let apart = "energy.bending = { rigidity = 1.0, preferred_curvature = 'rho' }
+                 energy.local.expression = '0.5*(a - 1)^2 + 0.05*a_sigma^2'";
+    for gauge in ["scaled-arc-length", "co-moving"] {
+        for nodes in ["64", "128", "'auto'"] {
+            let [energy, length] = end(apart, nodes, gauge);
+            for together in together {
+                let [e, l] = end(together, nodes, gauge);
+                assert!((e - energy).abs() < 1e-9 * energy, "{together} {nodes} {gauge}: {e} and {energy}");
+                assert!((l - length).abs() < 1e-9 * length, "{together} {nodes} {gauge}: {l} and {length}");
+            }
+        }
+    }
+}

@@ -4,15 +4,13 @@ use super::{EnergyTerm, Fields, Jet, Order};
 use crate::expression::{Expression, ExpressionError, Program};
 
 /// A local density from an expression, differentiated by the program.
+///
+/// What it is without slopes is a density at the nodes, like any other, so that what varies from node to node has its full cost; what
+/// slopes add is one at the flux points.
 #[derive(Clone, Debug)]
 pub struct Local {
-    of_slopes: bool,
-    variables: usize,
-    gradient: Program,
-    hessian: Program,
-    /// e, its first derivatives and its second derivatives in the packed order of [`Jet`].
-    results: Vec<f64>,
-    scratch: Vec<f64>,
+    plain: Option<Density>,
+    of_slopes: Option<Density>,
 }
 
 /// Most outputs of a program: value, 16 first and 136 second derivatives of 16 variables.
@@ -31,8 +29,27 @@ impl Local {
         assert!(2 * fields <= MOST_VARIABLES, "at most {} fields", MOST_VARIABLES / 2);
         let arity = expression.arity();
         assert!(arity <= 2 * fields, "an energy of {arity} variables on {fields} fields and their slopes");
-        let of_slopes = (fields..2 * fields).any(|variable| expression.depends_on(variable));
-        let variables = if of_slopes { 2 * fields } else { fields };
+        let [plain, of_slopes] = expression.split_from(fields)?;
+        let density = |part: Option<Expression>, variables| {
+            part.map(|part| Density::new(&part, variables, nodes)).transpose()
+        };
+        Ok(Self { plain: density(plain, fields)?, of_slopes: density(of_slopes, 2 * fields)? })
+    }
+}
+
+/// A density with its programs.
+#[derive(Clone, Debug)]
+struct Density {
+    variables: usize,
+    gradient: Program,
+    hessian: Program,
+    /// The density, its first derivatives and its second derivatives in the packed order of [`Jet`].
+    results: Vec<f64>,
+    scratch: Vec<f64>,
+}
+
+impl Density {
+    fn new(expression: &Expression, variables: usize, nodes: usize) -> Result<Self, ExpressionError> {
         let first = (0..variables).map(|a| expression.derivative(a)).collect::<Result<Vec<_>, _>>()?;
         let mut second = Vec::new();
         for (a, by_a) in first.iter().enumerate() {
@@ -45,7 +62,6 @@ impl Local {
         let hessian = Program::compile(&outputs);
         let scratch = gradient.scratch_len().max(hessian.scratch_len());
         Ok(Self {
-            of_slopes,
             variables,
             gradient,
             hessian,
@@ -89,18 +105,22 @@ impl EnergyTerm for Local {
     }
 
     fn has_density(&self) -> bool {
-        !self.of_slopes
+        self.plain.is_some()
     }
 
     fn add_density(&mut self, fields: Fields<'_>, jet: &mut Jet) {
-        self.add(fields, jet);
+        if let Some(plain) = &mut self.plain {
+            plain.add(fields, jet);
+        }
     }
 
     fn has_slope_density(&self) -> bool {
-        self.of_slopes
+        self.of_slopes.is_some()
     }
 
     fn add_slope_density(&mut self, fields: Fields<'_>, jet: &mut Jet) {
-        self.add(fields, jet);
+        if let Some(of_slopes) = &mut self.of_slopes {
+            of_slopes.add(fields, jet);
+        }
     }
 }

@@ -31,6 +31,7 @@ mod lower;
 mod parse;
 mod program;
 mod spelling;
+mod split;
 mod symbolic;
 mod tape;
 pub(crate) mod vector_math;

@@ -4,6 +4,7 @@ use super::derivative::differentiate;
 use super::error::ExpressionError;
 use super::graph::Node;
 use super::parse::parse;
+use super::split::split;
 
 /// A function of named variables, written as text or derived from one that was.
 #[derive(Clone, Debug)]
@@ -44,6 +45,17 @@ impl Expression {
         let nodes = differentiate(&self.nodes, variable)?;
         let text = format!("d({})/d({name})", self.text);
         Ok(Self { text, variables: self.variables.clone(), nodes })
+    }
+
+    /// The expression as the sum of a function without the variables from index `first` on, its value where they are zero, and of what
+    /// these add; none where that is zero. What would get a pole or a corner without them is in the second part as it stands.
+    ///
+    /// Their [`text`](Self::text) is that of `self`.
+    /// # Errors
+    /// [`ExpressionError::TooManyTerms`] if the parts grow beyond bounds.
+    pub fn split_from(&self, first: usize) -> Result<[Option<Self>; 2], ExpressionError> {
+        let part = |nodes| Self { text: self.text.clone(), variables: self.variables.clone(), nodes };
+        Ok(split(&self.nodes, first)?.map(|nodes| nodes.map(part)))
     }
 
     /// Whether the variable at index `variable` occurs in the expression.

@@ -215,7 +215,12 @@ impl<S: Stepper> Adaptive<S> {
                 Err(self.refuse(Rejection::EnergyRise, LEAST_FACTOR))
             }
             Finish::Good { energy, dissipation, mut integral_rates } => {
-                integral_rates[POSITIVE] = self.stepper.dissipation(problem, dissipation);
+                // A step that loses less than the rounding of the energy has moved the state by rounding.
+                integral_rates[POSITIVE] = if dissipation * size > ENERGY_ROUNDING * energy.abs() {
+                    self.stepper.dissipation(problem, dissipation)
+                } else {
+                    dissipation
+                };
                 let integrals = self.stepper.integrals_ahead(integral_rates);
                 let mut imbalance = self.imbalance(energy, 0.0, integrals.values());
                 let mut rounding = 0.0;

@@ -34,6 +34,8 @@ pub const ENERGY_TOLERANCE_SHARE: f64 = 0.01;
 
 /// Times that lie less than this ahead count as reached: no step is so short.
 const NEAREST: f64 = 1e-306;
+/// … and beyond this many times the rounding of a time that is asked for: shorter ones change nothing but by rounding.
+const NEAREST_ROUNDINGS: f64 = 16.0;
 
 /// A scene under way.
 ///
@@ -168,13 +170,14 @@ impl Simulation {
     }
 
     /// At most `steps` steps until `time`, where the last of them ends, or until the run stops. Returns whether there is
-    /// more to do. A time less than 1e-306 ahead counts as reached.
+    /// more to do. A time less than 1e-306, or sixteen times its rounding, ahead counts as reached.
     pub fn run_until(&mut self, time: f64, steps: u64, observer: &mut dyn Observer) -> bool {
         self.until = time;
         self.integration.set_end(self.next_stop());
         let last = self.counters().steps.saturating_add(steps);
         let mut clock = Instant::now();
-        while time - self.time() >= NEAREST && self.counters().steps < last && self.stopped.is_none() {
+        let nearest = NEAREST.max(NEAREST_ROUNDINGS * f64::EPSILON * time.abs());
+        while time - self.time() >= nearest && self.counters().steps < last && self.stopped.is_none() {
             clock = self.step_since(clock, observer);
         }
         self.until = f64::INFINITY;

@@ -25,10 +25,10 @@ use crate::geometry::vectors::{mean, multiply};
 use crate::operators::{CyclicBanded, FactorisationError};
 
 /// More nodes make the assembled sixth-order band inaccurate, and buy nothing; and the eighth-order one of surface diffusion.
-pub const MOST_NODES: usize = 1024;
+const MOST_NODES: usize = 1024;
 const MOST_NODES_OF_SURFACE_DIFFUSION: usize = 384;
-/// Graded nodes are crowded somewhere: fewer of them would miss what they crowd for.
-const MOST_GRADED_NODES: usize = 8192;
+/// Graded and co-moving nodes are crowded somewhere: fewer of them would miss what they crowd for.
+pub const MOST_UNEQUAL_NODES: usize = 8192;
 /// F fields have a band of half-width 4F − 1, which needs three times as many rows: 12 nodes for any F. With surface diffusion it is
 /// 5F − 1.
 const FEWEST_NODES: usize = 12;
@@ -122,7 +122,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         let (nodes, grading) = (flow.layout().nodes(), flow.grading());
         let is_surface_diffusion = diffuses(flow);
         let most = match (grading, is_surface_diffusion) {
-            (Some(_), _) => MOST_GRADED_NODES,
+            (Some(_), _) => MOST_UNEQUAL_NODES,
             (None, false) => MOST_NODES,
             (None, true) => MOST_NODES_OF_SURFACE_DIFFUSION,
         };

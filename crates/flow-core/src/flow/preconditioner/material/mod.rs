@@ -6,7 +6,7 @@
 
 mod rows;
 
-use super::banded::{Banded, Coefficients, MOST_NODES, Window, diffuses};
+use super::banded::{Banded, Coefficients, MOST_UNEQUAL_NODES, Window, diffuses};
 use super::fourier::mobility_symbol;
 use super::local_spacing::LocalSpacing;
 use crate::flow::gradient_flow::GradientFlow;
@@ -46,7 +46,7 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
     /// For `flow`.
     pub fn new(flow: &GradientFlow) -> Self {
         let nodes = flow.layout().nodes();
-        let coarse = nodes.clamp(8, MOST_NODES);
+        let coarse = nodes.clamp(8, MOST_UNEQUAL_NODES);
         let window = Window::new(nodes, coarse);
         let grid = &window.grid;
         Self {
