@@ -18,6 +18,7 @@ mod mobility_laws;
 mod pointwise_force;
 mod refusals;
 mod regrading;
+mod rest;
 mod scalar;
 mod second_derivative;
 mod stability;

@@ -23,6 +23,11 @@ pub trait Law {
     /// A step to `time` is accepted.
     fn accepted(&mut self, _time: f64) {}
 
+    /// Whether f vanishes wherever the energy no longer falls.
+    fn rests_with_its_energy(&self) -> bool {
+        false
+    }
+
     /// Whether exponential steps may be taken, of which f′ is the linear part.
     fn is_exponential(&self) -> bool {
         false
@@ -104,6 +109,10 @@ impl<L: Law> Problem for Scalar<L> {
         part.clear(1, 0);
         part.drive_by_last(|_, column| column[0] = self.law.slope(y[0]), |_, _| true);
         self.law.is_exponential()
+    }
+
+    fn rests_with_its_energy(&self) -> bool {
+        self.law.rests_with_its_energy()
     }
 
     fn accepted(&mut self, time: f64, _: [f64; INTEGRALS]) {
