@@ -243,4 +243,25 @@ mod tests {
         assert!(integral(&times, noisy).is_finite());
         assert!(integral(&times, noisy) <= bound, "{:e}", integral(&times, noisy));
     }
+
+    /// Rates of zero, as at rest, have no logarithm, and polynomials through a jump of them swing.
+    #[test]
+    fn a_rate_that_jumps_from_zero_gives_no_less_than_nothing_and_no_more_than_its_values_allow() {
+        let times = [0.0, 1.0, 2.0, 2.001, 10.0];
+        for rates in [
+            [0.0, 0.0, 0.0, 1.0, 1.0],
+            [0.0, 0.0, 0.0, 1.0, 0.0],
+            [1.0, 1.0, 1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0, 1.0, 0.0],
+        ] {
+            let mut integrals = Integrals::new(times[0], [0.0; INTEGRALS], [rates[0], 0.0, 0.0, 0.0]);
+            for step in 1..times.len() {
+                let after = integrals.after(times[step], [rates[step], 0.0, 0.0, 0.0], 0.0);
+                let more = after.values()[POSITIVE] - integrals.values()[POSITIVE];
+                let most = 2.0 * (times[step] - times[step - 1]) * rates[step].max(rates[step - 1]);
+                assert!(more >= 0.0 && more <= 1.0001 * most, "{rates:?}: {more} in step {step}");
+                integrals = after;
+            }
+        }
+    }
 }

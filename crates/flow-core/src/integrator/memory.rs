@@ -62,3 +62,25 @@ impl Memory {
         self
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::integrator::INTEGRALS;
+
+    #[test]
+    fn past_states_out_of_order_are_those_of_no_run() {
+        let fits = |times: [f64; 3]| {
+            let mut pace = Pace::starting(0.1);
+            (pace.order, pace.last_order) = (2, 2);
+            let points = times.map(|time| (time, vec![1.0])).to_vec();
+            let integrals = Integrals::new(0.0, [0.0; INTEGRALS], [0.0; INTEGRALS]);
+            let factorisation = Factorisation::default();
+            Memory { points, integrals, factorisation, exponential: None, pace }.fits(1)
+        };
+        assert!(fits([0.0, -0.1, -0.2]));
+        for times in [[0.0, -0.2, -0.1], [0.0, -0.1, -0.1], [-0.1, 0.0, -0.2], [0.0, f64::NAN, -0.1]] {
+            assert!(!fits(times), "{times:?}");
+        }
+    }
+}

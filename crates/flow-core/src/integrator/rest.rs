@@ -64,4 +64,14 @@ mod tests {
     fn a_flow_that_creeps_visibly_is_not() {
         assert!(!watched(|time| 1.0 - 1e-14 * time));
     }
+
+    #[test]
+    fn many_steps_within_a_short_time_are_no_rest() {
+        let mut rest = Rest::new(0.0, 2.0);
+        rest.watch(1.0, 1.0, 1e-13);
+        for step in 1..100 {
+            rest.watch(1.0 + 1e-3 * f64::from(step), 1.0, 1e-13);
+        }
+        assert!(!rest.reached(1.1) && rest.reached(2.0));
+    }
 }
