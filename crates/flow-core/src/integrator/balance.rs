@@ -34,7 +34,7 @@ const CERTAIN: f64 = 0.01;
 /// or if rounding and curvature leave no difference that tells.
 ///
 /// The error of the central difference falls with the square of its size, by 64 from one to the next: where two of them agree on what
-/// is missing, it is the derivative that is wrong. `problem` has finished `state` last when this returns.
+/// is missing, it is the derivative that is wrong. `problem` has finished another state last when this returns.
 pub fn share_lost(problem: &mut dyn Problem, time: f64, state: &[f64], size: f64) -> Option<f64> {
     let mut rate = vec![0.0; state.len()];
     problem.rate(state, &mut rate);
@@ -68,7 +68,5 @@ pub fn share_lost(problem: &mut dyn Problem, time: f64, state: &[f64], size: f64
         }
         before = Some(missing);
     }
-    moved.copy_from_slice(state);
-    problem.finish(time, &mut moved);
     found
 }
