@@ -37,6 +37,22 @@ fn scenes() -> Vec<Scene> {
         shipped("incompressible", &[("flow.normal_mobility", "incompressible-area-preserving")]),
         shipped("adhesion", &[("time.end", "0.02"), ("accuracy.derivative", "central-4")]),
         shipped("membrane_penalty", &[("accuracy.linear_solver", "banded")]),
+        // Stopped by the watch over the dissipation, and held at rest by that over the energy.
+        shipped(
+            "circle",
+            &[
+                ("accuracy.nodes", "32"),
+                ("energy.length", "{ penalty = 20, target_ratio = 1.1 }"),
+                ("time", "{ end = 1e9 }"),
+            ],
+        ),
+        shipped(
+            "figure_eight",
+            &[
+                ("flow.normal_mobility", "area-preserving"),
+                ("time", "{ end = 1e9, stop_at_equilibrium = false }"),
+            ],
+        ),
     ]
 }
 
@@ -122,6 +138,19 @@ fn an_interrupted_run_goes_on_to_the_same_bits() {
     }
 }
 
+/// With its last frame as it was, which is not one of the schedule.
+#[test]
+fn a_run_that_is_over_stays_so() {
+    for scene in scenes() {
+        let mut simulation = Simulation::new(&scene).unwrap();
+        while simulation.step(&mut Quiet) {}
+        let mut resumed = passed_on(&simulation);
+        assert_eq!(resumed.stop_reason(), simulation.stop_reason(), "{}", scene.title);
+        assert!(!resumed.step(&mut Quiet), "{}", scene.title);
+        assert_same(&simulation.into_record(), &resumed.into_record(), &scene.title);
+    }
+}
+
 /// Checksums keep accidents out, not intent: what does not fit is refused before it is used.
 #[test]
 fn a_whole_checkpoint_that_does_not_fit_is_refused() {
@@ -151,6 +180,12 @@ fn a_whole_checkpoint_that_does_not_fit_is_refused() {
     );
     assert!(refused(&|checkpoint| checkpoint.frames.clear()).contains("the frames"));
     assert!(refused(&|checkpoint| checkpoint.steps.order.clear()).contains("log of steps"));
+    let shorter = refused(&|checkpoint| {
+        let resolved = &mut checkpoint.scene.resolved;
+        let end = format!("end = {:?}", Scene::parse(resolved, "resolved").unwrap().time.end);
+        *resolved = resolved.replace(&end, "end = 1e-300");
+    });
+    assert!(shorter.contains("the time"), "{shorter}");
     assert!(refused(&|checkpoint| checkpoint.scene.resolved.clear()).contains("`curve` is missing"));
 }
 
