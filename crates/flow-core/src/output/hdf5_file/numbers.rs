@@ -53,3 +53,44 @@ fn add(sum: &mut Hasher, values: &[f64]) {
         sum.update(bytes);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::{Quiet, Scene, run};
+
+    #[test]
+    fn every_number_of_frames_and_steps_counts() {
+        let (_, text) = Scene::shipped().iter().find(|(name, _)| *name == "membrane_penalty").unwrap();
+        let changes = [("output.fields", "['normal-force']"), ("time.end", "1e-4"), ("output.frames", "1")];
+        let changes = changes.map(|(key, value)| (key.to_owned(), value.to_owned()));
+        let record = run(&Scene::parse_with(text, "scene", &changes).unwrap(), &mut Quiet).unwrap();
+        let whole = checksum(&record);
+        let counts = |what: &str, change: &dyn Fn(&mut Record)| {
+            let mut changed = record.clone();
+            change(&mut changed);
+            assert!(changed != record && checksum(&changed) != whole, "{what}");
+        };
+        for entry in FRAME_VALUES {
+            counts(entry.name, &|record| *(entry.slot)(&mut record.frames[1]) += 1.0);
+        }
+        for list in NAMED_VALUES {
+            counts(list.group, &|record| (list.slot)(&mut record.frames[1])[0] += 1.0);
+        }
+        for entry in NODAL_FIELDS {
+            counts(entry.name, &|record| (entry.slot)(&mut record.frames[1])[2] += 1.0);
+        }
+        for list in NAMED_FIELDS {
+            counts(list.group, &|record| (list.slot)(&mut record.frames[1])[0][2] += 1.0);
+        }
+        counts("position", &|record| record.frames[1].position[2][1] += 1.0);
+        for entry in STEP_VALUES {
+            counts(entry.name, &|record| (entry.slot)(&mut record.steps)[1] += 1.0);
+        }
+        counts("order", &|record| record.steps.order[1] += 1);
+        counts("nodes", &|record| record.steps.nodes[1] += 1);
+        for cause in CAUSES {
+            counts(cause.name, &|record| *(cause.slot)(&mut record.steps.rejections[1]) += 1);
+        }
+    }
+}
