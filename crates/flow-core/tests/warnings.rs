@@ -47,3 +47,16 @@ fn a_run_that_loses_its_balance_bit_by_bit_is_told() {
         .expect("a state");
     assert!(warnings(&tighter).is_empty());
 }
+
+/// They are looked at now and then, and each look speaks for the steps since the one before.
+#[test]
+fn fixed_nodes_that_are_too_few_all_along_are_told() {
+    let record =
+        run(&shipped("three_fold_sharp", &[("accuracy.nodes", "256")]), &mut Quiet).expect("a state");
+    let told = warnings(&record);
+    assert!(
+        told.iter().any(|told| told.contains("were not resolved by their nodes")),
+        "{:?}",
+        record.counters
+    );
+}

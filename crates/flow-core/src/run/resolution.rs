@@ -182,4 +182,19 @@ mod tests {
         let ratio = needed(512, 1e-12) as f64 / needed(512, 1e-10) as f64;
         assert!(needed(512, 1e-10) > MOST_NODES && (ratio / 10.0 - 1.0).abs() < 0.1, "{ratio}");
     }
+
+    #[test]
+    fn the_sharper_of_two_fronts_on_the_longest_curve_asks_for_the_nodes() {
+        let (_, text) = Scene::shipped().iter().find(|(name, _)| *name == "three_fold").unwrap();
+        let nodes = |epsilon: &str, delta: &str, ratio: &str| {
+            let changes =
+                [("agents.epsilon", epsilon), ("agents.delta", delta), ("length.target_ratio", ratio)]
+                    .map(|(key, value)| (format!("energy.{key}"), value.to_owned()));
+            fronts(&Scene::parse_with(text, "three_fold", &changes).unwrap(), 2.0)
+        };
+        let expected = 2.0 / (NODE_DISTANCE_PER_EPSILON * 0.01);
+        assert!((nodes("0.01", "0.04", "1") - expected).abs() < 1e-9 * expected);
+        assert!((nodes("0.04", "0.01", "0.5") - expected).abs() < 1e-9 * expected);
+        assert!((nodes("0.04", "0.01", "1.5") - 1.5 * expected).abs() < 1e-9 * expected);
+    }
 }

@@ -187,3 +187,27 @@ fn with_nodes(mesh: &Mesh, nodes: usize) -> Mesh {
     let samples = mesh.samples.as_ref().map(|samples| resample(samples, Grading::samples(nodes)));
     Mesh { nodes, samples }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_resolved_is_named() {
+        let (_, text) = Scene::shipped().iter().find(|(name, _)| *name == "blend").unwrap();
+        let adaptation = Adaptation::of(&Scene::parse(text, "blend").unwrap()).unwrap();
+        let names = adaptation.densities.clone();
+        let layout = Layout::new(64, names.len()).with_metric();
+        let error = |field| adaptation.hopeless(0.5, layout, (field, 0.25));
+        assert_eq!(error(0), ResolutionError::Curvature { time: 0.5, nodes: 64, part: 0.25 });
+        for (index, name) in names.iter().enumerate() {
+            let density = name.clone();
+            assert_eq!(
+                error(1 + index),
+                ResolutionError::Density { time: 0.5, nodes: 64, density, part: 0.25 }
+            );
+        }
+        assert_eq!(error(1 + names.len()), ResolutionError::Metric { time: 0.5, nodes: 64, part: 0.25 });
+        assert!(names.len() > 1);
+    }
+}
