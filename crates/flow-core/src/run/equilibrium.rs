@@ -124,4 +124,15 @@ mod tests {
         let mut watch = Equilibrium::new(1e-7, 1.0, 0.0, 10.0);
         assert!(watch.reached(1e-6, 1.0, 1e-30));
     }
+
+    /// E = e^{−2t}: what is small beside the energy at the time is never all of it, what is small beside the energy lost is.
+    #[test]
+    fn a_flow_that_loses_all_its_energy_comes_to_rest() {
+        let energy = |t: f64| (-2.0 * t).exp();
+        let mut watch = Equilibrium::new(1e-5, 1.0, 2.0, 300.0);
+        let at_rest = (1..400)
+            .map(|i| 1e-3 * 1.03_f64.powi(i))
+            .find(|t| watch.reached(*t, energy(*t), 2.0 * energy(*t)));
+        assert!(at_rest.is_some_and(|time| energy(time) < 1e-8), "{at_rest:?}");
+    }
 }

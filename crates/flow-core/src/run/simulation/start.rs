@@ -205,3 +205,28 @@ fn rest_tolerance(scene: &Scene) -> f64 {
     let share = if slides { 0.1 } else { 0.01 };
     scene.time.equilibrium_tolerance.unwrap_or(share * scene.accuracy.tolerance)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rest_is_asked_for_less_exactly_where_nodes_slide_and_after_any_switch_to_such() {
+        let (_, text) = Scene::shipped().iter().find(|(name, _)| *name == "circle").unwrap();
+        let share = |flow: &str| {
+            let changes = [("flow".into(), flow.into()), ("accuracy.tolerance".into(), "1e-4".into())];
+            (1e4 * rest_tolerance(&Scene::parse_with(text, "circle", &changes).unwrap()) * 1e3).round() / 1e3
+        };
+        assert_eq!(share("{ gauge = 'scaled-arc-length' }"), 0.01);
+        assert_eq!(share("{ gauge = 'graded', grading = '1 + 0.1*cos(2*pi*s)' }"), 0.01);
+        assert_eq!(share("{ gauge = 'graded' }"), 0.1);
+        assert_eq!(share("{ gauge = 'co-moving' }"), 0.1);
+        for gauge in ["graded", "co-moving"] {
+            assert_eq!(
+                share(&format!("{{ switch = [{{ time = 0.1, gauge = '{gauge}' }}] }}")),
+                0.1,
+                "{gauge}"
+            );
+        }
+    }
+}
