@@ -3,7 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use flow_core::run::{Counters, Quiet, Record, Scene, SetupError, run};
+use flow_core::run::{Counters, Quiet, Record, Scene, SetupError, Simulation, run};
 
 fn record(curve: &str, rest: &str) -> Record {
     run(&scene(curve, rest), &mut Quiet).unwrap()
@@ -78,4 +78,31 @@ fn what_no_nodes_see_is_refused_and_what_fixed_ones_miss_is_told() {
     assert!(steps > 0 && unresolved_steps == steps, "{unresolved_steps} of {steps}");
     let resolved = density("0.5 + 0.3*cos(20*2*pi*s)", "256");
     assert_eq!(resolved.counters.unresolved_steps, 0);
+}
+
+/// Nodes that miss some of a curve leave a gap between its ends.
+#[test]
+fn a_gap_of_more_than_a_hundredth_of_the_length_is_refused() {
+    let start = |nodes| {
+        let rest =
+            format!("energy.bending.rigidity = 1.0\naccuracy = {{ tolerance = 1e-5, nodes = {nodes} }}");
+        let curve = "shape = 'polar', r = '1 + 0.3*cos(5*phi) + 0.1*sin(3*phi)'";
+        Simulation::new(&scene(curve, &rest)).map(|simulation| {
+            let first = &simulation.frames()[0];
+            first.closure_defect / first.length
+        })
+    };
+    let mut refused = false;
+    for nodes in (48..=128).step_by(8) {
+        match start(nodes) {
+            Ok(gap) => assert!(gap <= 1e-2, "{nodes} nodes: a gap of {gap:.1e}"),
+            Err(SetupError::TooFewNodes { gap, bound, .. }) => {
+                assert!(gap > bound, "{gap} {bound}");
+                refused = true;
+            }
+            Err(SetupError::TurningNumber { .. }) => {}
+            Err(error) => panic!("{error}"),
+        }
+    }
+    assert!(refused && start(512).is_ok_and(|gap| gap < 1e-4));
 }

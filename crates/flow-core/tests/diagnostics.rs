@@ -166,6 +166,10 @@ fn a_membrane_knows_its_distance_from_the_incompressible_one() {
     {
         assert!(self::record(&(text.clone() + other)).diagnostics.is_empty(), "{other}");
     }
+    for other in ["'exchange'", "'diffusion', weight = '2'"] {
+        let other = text.replace("'diffusion'", other) + "accuracy.nodes = 64\n";
+        assert!(self::record(&other).diagnostics.is_empty(), "{other}");
+    }
 }
 
 /// ‖ρ − 1 − ερ̄‖ is an integral over the arc length wherever the nodes are.

@@ -1,6 +1,6 @@
 //! What `curveflow check` foretells, held against the runs themselves.
 
-use flow_core::run::scene::{Frames, Nodes, Spacing};
+use flow_core::run::scene::{Frames, Nodes, OutputField, Spacing};
 use flow_core::run::{Prediction, Quiet, Record, Scene, StopReason, predict, run};
 
 fn shipped(name: &str) -> Scene {
@@ -70,4 +70,21 @@ fn a_trial_does_without_the_frames_that_the_scene_asks_for() {
     assert_near(many.steps, few.steps, 1.2, "steps");
     assert!(many.memory_bytes > 100.0 * few.memory_bytes && many.output_seconds > 30.0 * few.output_seconds);
     assert!(many.memory_bytes > 2.5 * many.file_bytes, "frames are held, and the file before it is written");
+}
+
+#[test]
+fn every_frame_and_every_field_of_it_takes_room() {
+    let with = |frames: Frames, fields: Vec<OutputField>| {
+        let mut scene = shipped("circle");
+        scene.accuracy.nodes = Nodes::Count(256);
+        (scene.output.frames, scene.output.fields) = (frames, fields);
+        predict(&scene).expect("an initial state").file_bytes
+    };
+    let at = |times: &[f64]| Frames::At { times: times.to_vec() };
+    let spaced = with(Frames::Spaced { frames: 4, spacing: Spacing::Linear }, vec![]);
+    // The first and the last frame are saved in any case.
+    assert_eq!(with(at(&[0.25, 0.5, 0.75]), vec![]), spaced);
+    let both = vec![OutputField::NormalForce, OutputField::TangentialVelocity];
+    let more = with(at(&[0.25, 0.5, 0.75]), both) - spaced;
+    assert!((more - 8.0 * 5.0 * 2.0 * 256.0).abs() < 1e-6, "{more} bytes of two fields in five frames");
 }

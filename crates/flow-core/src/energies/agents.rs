@@ -176,3 +176,34 @@ fn add_hessian(
             + by_delta * (preferred_1[i] * preferred_1[i] - excess * preferred_2[i]);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is wrong with nodal lines on the curvatures 1, 0 and 2.
+    fn fault(low: &str, high: &str) -> Option<TermFault> {
+        let line = |text| Expression::parse(text, &["kappa", "rho"]).unwrap();
+        let lines =
+            NodalLines { preferred_curvature: line("rho"), low_density: line(low), high_density: line(high) };
+        let mut agents = Agents::new(0, 0.1, 0.1, &lines, 3).unwrap();
+        let values = [1.0, 0.0, 2.0, 0.5, 0.5, 0.5];
+        let (fields, mut jet) = (Fields::new(3, &values), Jet::new(3, 2));
+        jet.clear(Order::Gradient);
+        agents.add_density(fields, &mut jet);
+        agents.fault(fields)
+    }
+
+    #[test]
+    fn nodal_lines_that_touch_cross_or_are_no_numbers_are_found_at_their_node() {
+        let node = |low, high| match fault(low, high) {
+            Some(TermFault::NodalLinesMeet { node, .. }) => Some(node),
+            _ => None,
+        };
+        assert_eq!(node("0.2", "0.3 + 0.1*kappa"), None);
+        assert_eq!(node("0.2", "0.2 + 0.1*kappa"), Some(1));
+        assert_eq!(node("0.2", "0.5 - 0.2*kappa"), Some(2));
+        assert_eq!(node("0.2", "sqrt(kappa - 0.5)"), Some(1));
+        assert_eq!(node("0*ln(kappa)", "0.8"), Some(1));
+    }
+}
