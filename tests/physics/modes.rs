@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use curveflow_tests::{assert_close, last, run, scene};
+use curveflow_tests::{assert_close, last, run, scene, shipped};
 use flow_core::integrator::Problem;
 use flow_core::run::{Frame, Setup};
 
@@ -127,4 +127,16 @@ fn the_implicit_operator_has_the_known_rates_at_a_circle_at_rest() {
         rate[2 * mode] = 0.0;
         assert!(rate.iter().all(|rest| rest.abs() < 1e-9 * exact.abs()), "mode {mode} is an eigenvector");
     }
+}
+
+/// A wall for the length is in the linear part of exponential steps, however stiff: they take no implicit solves for it.
+#[test]
+fn a_stiff_length_leaves_the_steps_exponential() {
+    let steps = |penalty| {
+        let record = run(&shipped("length_penalty", &[("energy.length.penalty", penalty)]));
+        assert_eq!(record.counters.jacobian_products, 0, "{penalty}: {:?}", record.counters);
+        record.counters.steps
+    };
+    let (soft, stiff) = (steps("5"), steps("1e6"));
+    assert!(stiff < 2 * soft, "{soft} and {stiff} steps");
 }

@@ -183,3 +183,19 @@ fn the_curve_moves_at_its_normal_velocity_wherever_it_points() {
         }
     }
 }
+
+#[test]
+fn a_curve_that_comes_free_of_itself_is_not_in_contact() {
+    let record = run(&scene(
+        "
+        curve = { shape = 'parametric', x = '2*cos(phi)', y = 'sin(phi)*(cos(phi)^2 - 0.05)' }
+        energy.bending.rigidity = 1.0
+        energy.length = { penalty = 100.0, target_ratio = 1.0 }
+        flow.stop_on_contact = true
+        time = { end = 0.2, stop_at_equilibrium = false }
+        accuracy = { tolerance = 1e-5, nodes = 128 }
+        ",
+    ));
+    assert_eq!((record.frames[0].crossings, last(&record).crossings), (2.0, 0.0));
+    assert_eq!(record.stop_reason, StopReason::EndTime);
+}

@@ -1,9 +1,12 @@
 //! What every mobility must satisfy, with every derivative family and energy term.
 
+use std::f64::consts::TAU;
+
 use flow_core::energies::{Bending, EnergyTerm, Length, Local};
 use flow_core::expression::Expression;
 use flow_core::geometry::shapes::Shape;
-use flow_core::operators::DerivativeFamily;
+use flow_core::geometry::{Complex64, PeriodicGrid};
+use flow_core::operators::{Derivative, DerivativeFamily};
 use proptest::prelude::*;
 
 use crate::config;
@@ -248,5 +251,33 @@ fn weighted_diffusion_converges_at_the_order_of_the_family() {
                 assert!((measured - f64::from(order)).abs() < 0.3, "{family:?}: order {measured:.2}");
             }
         }
+    }
+}
+
+/// The band of the preconditioner is made of it; a weight in the wrong place made a run ten times as long.
+#[test]
+fn three_points_come_near_the_mobility_of_a_density() {
+    let (nodes, length) = (512, 3.0);
+    let mut grid = PeriodicGrid::new(nodes);
+    let wave =
+        |i: usize| (TAU * i as f64 / nodes as f64).sin() + 0.5 * (2.0 * TAU * i as f64 / nodes as f64).cos();
+    let potential: Vec<f64> = (0..nodes).map(wave).collect();
+    let mut spectra = [vec![Complex64::default(); grid.modes()], vec![Complex64::default(); grid.modes()]];
+    let [spectrum, image] = &mut spectra;
+    grid.transform(&potential, spectrum);
+    let mut exact = vec![0.0; nodes];
+    for (density, family) in
+        Density::ALL.into_iter().flat_map(|density| DerivativeFamily::ALL.map(|family| (density, family)))
+    {
+        let mut mobility = density.build(&grid, &Derivative::new(family, &grid));
+        mobility.apply(length, spectrum, image);
+        grid.synthesise(image, &mut exact);
+        let error = |node: usize| {
+            let [left, own, right] = mobility.three_points(node, nodes, length);
+            let of = |place: usize| potential[place % nodes];
+            left * of(node + nodes - 1) + own * of(node) + right * of(node + 1) - exact[node]
+        };
+        let worst = (0..nodes).map(|node| error(node).abs()).fold(0.0, f64::max);
+        assert!(worst <= 1e-3 * largest(&exact), "{density:?}, {family:?}: {worst:.1e}");
     }
 }
