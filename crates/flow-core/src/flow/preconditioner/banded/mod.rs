@@ -108,7 +108,7 @@ struct LocalPart<const F: usize, const B: usize> {
     /// Symbol of A by mode.
     mass: Vec<f64>,
     /// Factors on the right-hand sides and on the solutions, by field and mode: powers of A, and the root of
-    /// the ratio of the symbols.
+    /// the ratio of the symbols; where slopes of densities drive the curvature, the ratio on the right-hand sides.
     before: Vec<f64>,
     after: Vec<f64>,
     coefficients: Coefficients<F>,
@@ -170,6 +170,8 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
 
     fn set_correction(&mut self, flow: &mut GradientFlow, gamma: f64) {
         let (coarse, modes) = (self.window.grid.nodes(), self.window.grid.modes());
+        // What slopes of a density do to the curvature is of the order of the curvature's row.
+        let by_rows = flow.energy_terms().implicit_costs::<F>()[0][1..].iter().any(|cost| *cost != 0.0);
         for field in 0..F {
             let second = flow.energy_terms().jet().second(field, field);
             let mean = mean(second).max(0.0);
@@ -182,9 +184,10 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
                 if self.is_surface_diffusion {
                     power *= mass;
                 }
-                let root = (band / right).sqrt();
-                self.before[field * modes + mode] = power * root;
-                self.after[field * modes + mode] = mass * root;
+                let ratio = band / right;
+                let [before, after] = if by_rows { [ratio, 1.0] } else { [ratio.sqrt(); 2] };
+                self.before[field * modes + mode] = power * before;
+                self.after[field * modes + mode] = mass * after;
             }
         }
     }
