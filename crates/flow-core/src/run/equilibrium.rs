@@ -14,14 +14,16 @@ const STEPS: u32 = 5;
 /// The energy still to be lost is about D·t, or ∫D dt to the end if D goes on as it does, by a power of the time, and that is more:
 /// from rough data a flow settles by powers above −1, so that early on D·t is small, and yet nearly all is to come. The flow is
 /// at rest once D·t has stayed below a part of the energy while the time doubled. A flow that creeps (a metastable state) is at rest
-/// by this measure, to the tolerance asked for.
+/// by this measure, to the tolerance asked for. A step with more dissipation does not count if the energy lost since then is less
+/// than that part: what solves leave in stiff modes dissipates, and moves nothing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Equilibrium {
     tolerance: f64,
     initial_energy: f64,
     end: f64,
     last: (f64, f64),
-    quiet_since: Option<f64>,
+    /// Since when, and from which energy.
+    quiet_since: Option<(f64, f64)>,
     quiet_steps: u32,
 }
 
@@ -51,15 +53,18 @@ impl Equilibrium {
         let power = (last_dissipation / dissipation).ln() / (time / last_time).ln();
         let remaining = dissipation * time * to_come(power, self.end / time).max(1.0);
         let bound = self.tolerance * scale;
-        // Rounding and the error of the implicit solves make the dissipation flicker once it is low.
-        let quiet = remaining <= bound || (self.quiet_since.is_some() && dissipation * time <= bound);
-        if !quiet {
-            self.quiet_since = None;
-            self.quiet_steps = 0;
+        // Rounding makes the dissipation flicker once it is low.
+        if remaining > bound && (self.quiet_since.is_none() || dissipation * time > bound) {
+            if self.quiet_since.is_some_and(|(_, before)| before - energy > bound) {
+                self.quiet_since = None;
+            }
+            if self.quiet_since.is_none() {
+                self.quiet_steps = 0;
+            }
             return false;
         }
         self.quiet_steps = self.quiet_steps.saturating_add(1);
-        let since = *self.quiet_since.get_or_insert(time);
+        let (since, _) = *self.quiet_since.get_or_insert((time, energy));
         self.quiet_steps >= STEPS && time >= 2.0 * since
     }
 }
@@ -101,6 +106,35 @@ mod tests {
             let time = stops_at(rate, 1e4).unwrap();
             assert!((-2.0 * rate * time).exp() < 1e-7 && time < 40.0 / rate, "rate {rate}: stops at {time}");
         }
+    }
+
+    /// What solves leave in stiff modes shows in the dissipation, not in the energy.
+    #[test]
+    fn a_dissipation_that_flickers_does_not_put_off_the_rest() {
+        let energy = |t: f64| 1.0 + (-2.0 * t).exp();
+        let stops_at = |flicker: f64| {
+            let mut watch = Equilibrium::new(1e-7, 2.0, 2.0, 1e4);
+            let times =
+                (0..).map(|step| (step, 1e-9 * 1.05_f64.powi(step))).take_while(|(_, time)| *time < 1e4);
+            let mut rest = times.filter(|(step, time)| {
+                let noise = if step % 3 == 0 { flicker } else { 0.0 };
+                watch.reached(*time, energy(*time), 2.0 * (-2.0 * time).exp() + noise)
+            });
+            rest.next().map(|(_, time)| time)
+        };
+        let (plain, flickering) = (stops_at(0.0).unwrap(), stops_at(1e-3).unwrap());
+        assert!(flickering < 1.2 * plain, "{flickering} and {plain}");
+    }
+
+    /// Where the energy goes down with it, the dissipation is none of a solve.
+    #[test]
+    fn a_flow_that_gets_going_again_is_not_at_rest() {
+        let mut watch = Equilibrium::new(1e-4, 1.0, 1.0, 1e4);
+        for (time, energy, dissipation) in [(20.0, 0.5, 1e-9), (21.0, 0.5, 1e-9), (25.0, 0.49, 1e-3)] {
+            assert!(!watch.reached(time, energy, dissipation));
+        }
+        let rest = (0..100).map(|step| 26.0 + f64::from(step)).find(|time| watch.reached(*time, 0.49, 1e-9));
+        assert!(rest.is_some_and(|time| time >= 52.0), "{rest:?}");
     }
 
     #[test]

@@ -11,7 +11,7 @@ use crate::run::{Frame, Memory, Scene, Simulation, StepLog};
 const MAGIC: &[u8; 8] = b"\x89CFCKPT\n";
 const FOOTER: &[u8; 8] = b"CFCKEND\n";
 /// Changes when what the sections hold changes.
-const VERSION: u32 = 7;
+const VERSION: u32 = 8;
 const SECTIONS: usize = 4;
 
 /// A run that can go on.
