@@ -83,7 +83,7 @@ class _Scheduled:
 
 def _rounding(time: float, interval: float) -> float:
     """Times that differ by less are the same multiple of ``interval``."""
-    return max(1e-9 * interval, 4 * math.ulp(time))
+    return max(1e-9 * interval, 64 * math.ulp(time))  # more than what counts as reached
 
 
 class Simulation:
@@ -235,7 +235,8 @@ class Simulation:
         raises nothing: check :attr:`status`.
 
         Args:
-            until: simulated time, at which the last step ends exactly; to the end of the scene unless given.
+            until: simulated time, at which the last step ends exactly; to the end of the scene unless given. A time within
+                rounding of the present one counts as reached: ``0.1 * 3`` once the run is at 0.3.
             progress: show where the run stands on standard error.
             callback: called with a :class:`Progress` after every accepted step; it cannot use the simulation, which
                 callbacks of :meth:`add_callback` can. It stops the run by raising ``StopIteration``; other exceptions are
@@ -249,7 +250,7 @@ class Simulation:
             raise ValueError("until = nan must be a time")
         goes_on = self._call_due()
         with watching(progress, callback) as (watch, interval):
-            while goes_on and self.time < until and not self.done:
+            while goes_on and not self._native.has_reached(until) and not self.done:
                 goes_on = self._native.run_until(*self._next_call(until), watch, interval)
                 goes_on = self._call_due() and goes_on
         return not self.done

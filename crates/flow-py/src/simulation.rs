@@ -93,6 +93,11 @@ impl Simulation {
         watcher.raised.map_or(Ok(more), Err)
     }
 
+    /// Whether the run is at `time`, or within its rounding of it.
+    fn has_reached(&self, time: f64) -> PyResult<bool> {
+        Ok(self.lock()?.has_reached(time))
+    }
+
     /// The state at hand: time, energy, dissipation, length, area; position, curvature, metric, normal velocity and each
     /// density. The arrays take over the buffers of a frame that is made for them.
     fn state<'py>(&self, py: Python<'py>) -> PyResult<State<'py>> {

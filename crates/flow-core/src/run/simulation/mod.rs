@@ -6,6 +6,7 @@ mod remap;
 mod resume;
 mod start;
 mod switch;
+mod until;
 
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -31,11 +32,6 @@ use crate::run::setup_error::SetupError;
 
 /// Part of the tolerance by which the energy balance of one step may be off.
 pub const ENERGY_TOLERANCE_SHARE: f64 = 0.01;
-
-/// Times that lie less than this ahead count as reached: no step is so short.
-const NEAREST: f64 = 1e-306;
-/// … and beyond this many times the rounding of a time that is asked for: shorter ones change nothing but by rounding.
-const NEAREST_ROUNDINGS: f64 = 16.0;
 
 /// A scene under way.
 ///
@@ -166,35 +162,6 @@ impl Simulation {
                     }
                 }
             }
-        }
-    }
-
-    /// At most `steps` steps until `time`, where the last of them ends, or until the run stops. Returns whether there is
-    /// more to do. A time less than 1e-306, or sixteen times its rounding, ahead counts as reached.
-    pub fn run_until(&mut self, time: f64, steps: u64, observer: &mut dyn Observer) -> bool {
-        self.until = time;
-        self.integration.set_end(self.next_stop());
-        let last = self.counters().steps.saturating_add(steps);
-        let mut clock = Instant::now();
-        let nearest = NEAREST.max(NEAREST_ROUNDINGS * f64::EPSILON * time.abs());
-        while time - self.time() >= nearest && self.counters().steps < last && self.stopped.is_none() {
-            clock = self.step_since(clock, observer);
-        }
-        self.until = f64::INFINITY;
-        self.integration.set_end(self.next_stop());
-        self.stopped.is_none()
-    }
-
-    /// Where the steps must end next: at the end, at a switch, or where the caller wants it.
-    fn next_stop(&self) -> f64 {
-        self.end.min(self.gauges.next_time()).min(self.until)
-    }
-
-    /// Takes an interruption back, so that the run can go on.
-    pub fn go_on(&mut self) {
-        if self.stopped == Some(StopReason::Interrupted) {
-            self.stopped = None;
-            self.record.frames.truncate(self.scheduled_frames);
         }
     }
 
