@@ -1,63 +1,18 @@
 //! Runs of the command that are stopped or killed, and go on.
 #![allow(clippy::unwrap_used)] // a failed test may panic
 
+mod folder;
+
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+#[cfg(unix)]
+use std::process::Command;
+use std::process::Stdio;
 use std::thread::sleep;
 use std::time::Duration;
 
-use flow_core::output::hdf5_file;
 use flow_core::run::Record;
 
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("curveflow-{name}-{}", std::process::id()));
-        let _ = fs::remove_dir_all(&path);
-        fs::create_dir_all(&path).unwrap();
-        let shipped = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/three_fold.toml");
-        fs::copy(shipped, path.join("scene.toml")).unwrap();
-        Self(path)
-    }
-
-    fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_curveflow"));
-        command.args(arguments).current_dir(&self.0).stdin(Stdio::null());
-        command
-    }
-
-    fn call(&self, arguments: &[&str]) -> Output {
-        self.command(arguments).output().unwrap()
-    }
-
-    fn record(&self, name: &str) -> Record {
-        hdf5_file::read(&self.0.join(name)).unwrap()
-    }
-
-    fn names(&self) -> Vec<String> {
-        let entries = fs::read_dir(&self.0).unwrap();
-        let mut names: Vec<_> =
-            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-        names.sort();
-        names
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
-}
-
-fn code(output: &Output) -> i32 {
-    output.status.code().unwrap_or(-1)
-}
-
-fn said(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
+use folder::{Folder, code, said, wait_for};
 
 fn assert_same(one: &Record, other: &Record) {
     assert_eq!(one.steps, other.steps);
@@ -195,16 +150,6 @@ fn a_run_that_is_done_needs_no_lock() {
     let done = folder.call(&["resume", "run.h5"]);
     assert_eq!(code(&done), 0, "{}", said(&done));
     assert!(said(&done).contains("nothing to do"), "{}", said(&done));
-}
-
-fn wait_for(path: &Path) {
-    for _ in 0..1000 {
-        if path.exists() {
-            return;
-        }
-        sleep(Duration::from_millis(10));
-    }
-    panic!("{} does not appear", path.display());
 }
 
 #[test]

@@ -10,7 +10,7 @@ use flow_core::run::{Record, StopReason};
 use super::conduct::{Conduct, say_doubts};
 use super::info;
 use crate::error::CliError;
-use crate::print;
+use crate::print::{self, counted};
 
 /// Go on with a run that was stopped, from its checkpoint.
 #[derive(Debug, clap::Args)]
@@ -48,7 +48,11 @@ pub fn go_on(conduct: &Conduct, found: Found, pair: Pair) -> Result<(), CliError
     }
     if !conduct.quiet {
         let memory = &found.checkpoint.memory;
-        print::talk(&format!("going on at t = {:.6e}, after {} steps", memory.time(), memory.steps()));
+        print::talk(&format!(
+            "going on at t = {:.6e}, after {}",
+            memory.time(),
+            counted(memory.steps(), "step")
+        ));
     }
     let simulation = found.checkpoint.simulation(&found.path)?;
     conduct.run(simulation, pair, true)

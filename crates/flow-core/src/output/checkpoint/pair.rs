@@ -18,6 +18,8 @@ pub struct Pair {
     paths: [PathBuf; 2],
     /// Which one is written next.
     next: usize,
+    /// Whether the files, if any, are those of a run that this one replaces.
+    superseded: bool,
 }
 
 /// The newest checkpoint that is whole.
@@ -40,7 +42,7 @@ impl Pair {
             name.push(suffix);
             PathBuf::from(name)
         });
-        Self { result: result.to_path_buf(), paths, next: 0 }
+        Self { result: result.to_path_buf(), paths, next: 0, superseded: false }
     }
 
     /// The newest checkpoint, if there is any; the next one is then written to the other file.
@@ -72,13 +74,18 @@ impl Pair {
         }
     }
 
-    /// Fails if a run was stopped here, unless it may be replaced: then its checkpoints go.
+    /// Fails if a run was stopped here, unless it may be replaced: then its checkpoints go as soon as there is one of the new run.
     ///
     /// # Errors
     /// [`StorageError::Unfinished`], or what [`Pair::newest`] says.
     pub fn start_anew(&mut self, replace: bool) -> Result<(), StorageError> {
         if replace {
-            return self.remove();
+            self.superseded = true;
+            // The newest is the one that the first checkpoint of the new run replaces, in one step.
+            if matches!(self.newest(), Ok(Some(_))) {
+                self.next = 1 - self.next;
+            }
+            return Ok(());
         }
         match self.newest()? {
             None => Ok(()),
@@ -90,13 +97,18 @@ impl Pair {
         }
     }
 
-    /// Saves `simulation`; the checkpoint before this one stays.
+    /// Saves `simulation`; the checkpoint before this one stays, if it is of the same run.
     ///
     /// # Errors
-    /// [`StorageError`]; both files are then as they were.
+    /// [`StorageError`]; the newest of the files is then as it was.
     pub fn write(&mut self, simulation: &Simulation) -> Result<(), StorageError> {
+        if self.superseded {
+            // Of two files the one with more steps counts: none of the run before may outlive the first of this one.
+            remove(&self.paths[1 - self.next])?;
+        }
         atomic_file::write(&self.paths[self.next], &encode(simulation), true)?;
         self.next = 1 - self.next;
+        self.superseded = false;
         Ok(())
     }
 
@@ -105,21 +117,23 @@ impl Pair {
     /// # Errors
     /// [`StorageError`] if one is there and cannot be removed.
     pub fn remove(&self) -> Result<(), StorageError> {
-        for path in &self.paths {
-            match fs::remove_file(path) {
-                Err(reason) if reason.kind() != ErrorKind::NotFound => {
-                    return Err(StorageError::system(path, Operation::Remove, reason));
-                }
-                _ => {}
-            }
-        }
-        Ok(())
+        self.paths.iter().try_for_each(|path| remove(path))
     }
 
     /// The result file.
     #[must_use]
     pub fn result(&self) -> &Path {
         &self.result
+    }
+}
+
+/// Removes a file, if it is there.
+fn remove(path: &Path) -> Result<(), StorageError> {
+    match fs::remove_file(path) {
+        Err(reason) if reason.kind() != ErrorKind::NotFound => {
+            Err(StorageError::system(path, Operation::Remove, reason))
+        }
+        _ => Ok(()),
     }
 }
 
