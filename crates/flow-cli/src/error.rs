@@ -40,6 +40,9 @@ pub enum CliError {
     /// A file could not be written, or not be read at all.
     #[error(transparent)]
     Storage(StorageError),
+    /// The result could not be written; its run has a checkpoint.
+    #[error("{reason}; the run is not lost: after that, `curveflow resume {0}` goes on from its checkpoint", .output.display())]
+    Unwritten { reason: StorageError, output: PathBuf },
     /// Standard output is closed or full.
     #[error("cannot write to standard output: {0}; redirect it to a disk with space")]
     Stdout(io::Error),

@@ -78,7 +78,7 @@ fn exit_code(error: &CliError) -> u8 {
         | CliError::Unmeasured(_)
         | CliError::AllFailed
         | CliError::NotReached { .. } => 4,
-        CliError::Storage(_) | CliError::Stdout(_) | CliError::Signals(_) => 5,
+        CliError::Storage(_) | CliError::Unwritten { .. } | CliError::Stdout(_) | CliError::Signals(_) => 5,
         CliError::Stopped { .. } | CliError::LadderStopped { .. } => 6,
         CliError::Unreadable(_) | CliError::OtherScene { .. } => 7,
     }

@@ -40,6 +40,15 @@ impl Reporter {
         Self { stop, limit, line, interval, shown: Instant::now() }
     }
 
+    /// What says things without spoiling the line.
+    pub fn voice(&self) -> impl Fn(&str) + use<> {
+        let line = self.line.clone();
+        move |text| match &line {
+            Some(line) => line.suspend(|| print::talk(text)),
+            None => print::talk(text),
+        }
+    }
+
     /// Takes the line away.
     pub fn finish(&self) {
         if let Some(line) = &self.line {

@@ -39,3 +39,35 @@ fn a_run_that_replaces_another_goes_on_as_itself() {
     assert!(said(&resumed).contains("after 1 step\n"), "{}", said(&resumed));
     assert!(folder.record("out.h5").scene.contains("50.0"));
 }
+
+/// The limit lets the checkpoint through, which is smaller than the result.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_result_that_cannot_be_written_is_written_by_resume() {
+    const SMALL: &str =
+        "run scene.toml --set accuracy.nodes=64 --set accuracy.tolerance=1e-2 --set output.frames=2";
+    let folder = Folder::new("unwritten");
+    let limited = format!("ulimit -f 64; trap '' XFSZ; exec \"$0\" {SMALL} -o out.h5");
+    let unwritten = folder.shell(&limited);
+    assert_eq!(code(&unwritten), 5, "{}", said(&unwritten));
+    let said_why = said(&unwritten);
+    assert!(said_why.contains("ulimit -f") && said_why.contains("curveflow resume out.h5"), "{said_why}");
+    assert_eq!(folder.names(), ["out.h5.checkpoint-a", "scene.toml"]);
+    let resumed = folder.call(&["resume", "out.h5"]);
+    assert_eq!(code(&resumed), 0, "{}", said(&resumed));
+    assert_eq!(folder.names(), ["out.h5", "scene.toml"]);
+    assert_eq!(code(&folder.shell(&format!("exec \"$0\" {SMALL} -o whole.h5"))), 0);
+    let (resumed, whole) = (folder.record("out.h5"), folder.record("whole.h5"));
+    assert!(resumed.frames == whole.frames && resumed.steps == whole.steps);
+}
+
+/// The result of a run whose last checkpoint is refused is there all the same.
+#[test]
+fn a_stopped_run_without_its_checkpoint_leaves_its_result() {
+    let folder = Folder::new("uncheckpointed");
+    std::fs::create_dir(folder.0.join("out.h5.checkpoint-a")).unwrap();
+    let stopped = folder.call(&["run", "scene.toml", "-o", "out.h5", "--replace", "--max-wall", "0"]);
+    assert_eq!(code(&stopped), 5, "{}", said(&stopped));
+    assert!(said(&stopped).contains("checkpoint-a: is not a plain file"), "{}", said(&stopped));
+    assert_eq!(folder.record("out.h5").counters.steps, 1);
+}

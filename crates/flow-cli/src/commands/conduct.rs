@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use flow_core::output::checkpoint::{Pair, Saving, run_saving};
-use flow_core::output::hdf5_file;
+use flow_core::output::checkpoint::{Ended, Pair, Saving, run_saving};
+use flow_core::output::{StorageError, hdf5_file};
 use flow_core::run::{Record, Simulation, StopReason, warnings};
 
 use super::info;
@@ -43,14 +43,18 @@ impl Conduct {
         let clock = Instant::now();
         let limit = self.max_wall.map(|limit| clock + limit);
         let mut reporter = Reporter::new(self.quiet, stop_flag()?, limit);
-        let mut saving = Saving { pair, interval: self.checkpoint };
-        let mut record = run_saving(simulation, &mut reporter, &mut saving)?;
+        let mut warn = self.once_each(reporter.voice());
+        let mut saving = Saving { pair, interval: self.checkpoint, missed: &mut warn };
+        let mut ended = run_saving(simulation, &mut reporter, &mut saving);
         reporter.finish();
-        let output = saving.pair.result();
-        hdf5_file::write_timed(&mut record, output, replace)?;
-        if record.stop_reason != StopReason::Interrupted {
-            saving.pair.remove()?;
+        let output = saving.pair.result().to_path_buf();
+        if let Err(reason) = hdf5_file::write_timed(&mut ended.record, &output, replace) {
+            return Err(unwritten(reason, &ended, &mut saving));
         }
+        let Ended { record, last, .. } = ended;
+        let stopped = record.stop_reason == StopReason::Interrupted;
+        let goes_on = stopped && !saving.pair.is_of_another_run();
+        let removed = if goes_on { Ok(()) } else { saving.pair.remove() };
         let seconds = clock.elapsed().as_secs_f64();
         if self.json {
             print::data(&info::json(&record))?;
@@ -59,8 +63,33 @@ impl Conduct {
             say_doubts(&record);
             print::data(&output.display().to_string())?;
         }
-        outcome(record, output)
+        if let Some(Err(error)) = last.filter(|_| stopped) {
+            return Err(error.into());
+        }
+        removed?;
+        outcome(record, &output)
     }
+
+    /// Says why a checkpoint is missing, each reason once.
+    fn once_each(&self, say: impl Fn(&str)) -> impl FnMut(StorageError) {
+        let seconds = self.checkpoint.as_secs_f64();
+        let mut said: Vec<StorageError> = Vec::new();
+        move |error| {
+            if !said.iter().any(|earlier| earlier.is_like(&error)) {
+                say(&format!(
+                    "warning: {error}; the run goes on without this checkpoint, and tries the next one in {seconds} s"
+                ));
+                said.push(error);
+            }
+        }
+    }
+}
+
+/// What to say of a result that could not be written: whether its run is saved, or can be now.
+fn unwritten(reason: StorageError, ended: &Ended, saving: &mut Saving) -> CliError {
+    let saved = matches!(ended.last, Some(Ok(()))) || saving.pair.keep(ended).is_ok();
+    let output = saving.pair.result().to_path_buf();
+    if saved { CliError::Unwritten { reason, output } } else { reason.into() }
 }
 
 fn outcome(record: Record, output: &Path) -> Result<(), CliError> {

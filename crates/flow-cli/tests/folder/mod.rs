@@ -33,6 +33,13 @@ impl Folder {
         self.command(arguments).output().unwrap()
     }
 
+    /// Runs `command` in the shell, where the program is `"$0"`.
+    pub fn shell(&self, command: &str) -> Output {
+        let mut shell = Command::new("sh");
+        shell.args(["-c", command, env!("CARGO_BIN_EXE_curveflow")]).current_dir(&self.0);
+        shell.stdin(Stdio::null()).output().unwrap()
+    }
+
     pub fn record(&self, name: &str) -> Record {
         hdf5_file::read(&self.0.join(name)).unwrap()
     }

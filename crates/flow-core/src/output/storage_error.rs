@@ -3,6 +3,7 @@
 use std::error::Error;
 use std::fmt;
 use std::io::{self, ErrorKind};
+use std::mem::discriminant;
 use std::path::{Path, PathBuf};
 
 /// What was being done to a file.
@@ -108,6 +109,18 @@ impl StorageError {
         )
     }
 
+    /// Whether it has the same cause as `other`, perhaps at another file.
+    #[must_use]
+    pub fn is_like(&self, other: &Self) -> bool {
+        match (self, other) {
+            (
+                Self::System { operation, reason, .. },
+                Self::System { operation: other_operation, reason: other_reason, .. },
+            ) => operation == other_operation && reason.kind() == other_reason.kind(),
+            _ => discriminant(self) == discriminant(other),
+        }
+    }
+
     #[cold]
     pub(super) fn system(path: &Path, operation: Operation, reason: io::Error) -> Self {
         Self::System { path: path.to_path_buf(), operation, reason }
@@ -134,5 +147,22 @@ fn remedy(operation: Operation, reason: &io::Error) -> &'static str {
         ErrorKind::InvalidFilename => "choose a shorter name",
         _ if operation == Operation::Read => "check the disk, or copy the file to another one",
         _ => "choose another folder",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_are_alike_if_their_causes_are() {
+        let system = |path: &str, operation, kind| {
+            StorageError::system(Path::new(path), operation, io::Error::from(kind))
+        };
+        let full = system("a", Operation::Write, ErrorKind::StorageFull);
+        assert!(full.is_like(&system("b", Operation::Write, ErrorKind::StorageFull)));
+        assert!(!full.is_like(&system("a", Operation::Create, ErrorKind::StorageFull)));
+        assert!(!full.is_like(&system("a", Operation::Write, ErrorKind::PermissionDenied)));
+        assert!(!full.is_like(&StorageError::Protected { path: PathBuf::from("a") }));
     }
 }

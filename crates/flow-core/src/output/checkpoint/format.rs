@@ -6,7 +6,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::output::StorageError;
-use crate::run::{Frame, Memory, Scene, Simulation, StepLog};
+use crate::run::{Frame, Memory, Record, Scene, Simulation, StepLog};
 
 const MAGIC: &[u8; 8] = b"\x89CFCKPT\n";
 const FOOTER: &[u8; 8] = b"CFCKEND\n";
@@ -39,13 +39,26 @@ pub struct SceneTexts {
 /// The bytes of the checkpoint of `simulation`.
 #[must_use]
 pub fn encode(simulation: &Simulation) -> Vec<u8> {
-    let memory = simulation.memory();
-    let frames = &simulation.frames()[..memory.frames()];
-    let (given, resolved) = simulation.scene_texts();
+    to_sections(simulation.scene_texts(), &simulation.memory(), simulation.frames(), simulation.steps())
+}
+
+/// The bytes of the checkpoint of a run that is over and has become `record`. Its frames are all on the largest number of nodes, as
+/// those of a record that is made from the checkpoint will be anyway.
+pub(super) fn encode_ended(record: &Record, memory: &Memory) -> Vec<u8> {
+    to_sections((&record.scene, &record.resolved_scene), memory, &record.frames, &record.steps)
+}
+
+fn to_sections(
+    (given, resolved): (&str, &str),
+    memory: &Memory,
+    frames: &[Frame],
+    steps: &StepLog,
+) -> Vec<u8> {
     let scene = SceneTexts { given: given.to_owned(), resolved: resolved.to_owned() };
     let mut bytes = MAGIC.to_vec();
     bytes.extend(VERSION.to_le_bytes());
-    let sections = [to_bytes(&scene), to_bytes(&memory), to_bytes(&frames), to_bytes(simulation.steps())];
+    let sections =
+        [to_bytes(&scene), to_bytes(memory), to_bytes(&frames[..memory.frames()]), to_bytes(steps)];
     for section in sections {
         bytes.extend((section.len() as u64).to_le_bytes());
         bytes.extend(crc32fast::hash(&section).to_le_bytes());

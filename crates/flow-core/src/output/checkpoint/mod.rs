@@ -8,4 +8,4 @@ mod saving;
 pub use format::{Checkpoint, SceneTexts, decode, encode};
 pub use lock::Lock;
 pub use pair::{Found, Pair, read};
-pub use saving::{Saving, run_saving};
+pub use saving::{Ended, Saving, run_saving};

@@ -5,7 +5,8 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use super::format::{Checkpoint, decode, encode};
+use super::format::{Checkpoint, decode, encode, encode_ended};
+use super::saving::Ended;
 use crate::output::{Operation, StorageError, atomic_file};
 use crate::run::Simulation;
 
@@ -102,11 +103,23 @@ impl Pair {
     /// # Errors
     /// [`StorageError`]; the newest of the files is then as it was.
     pub fn write(&mut self, simulation: &Simulation) -> Result<(), StorageError> {
+        self.write_bytes(&encode(simulation))
+    }
+
+    /// Saves a run that is over, so that its result can be written later.
+    ///
+    /// # Errors
+    /// As for [`Pair::write`].
+    pub fn keep(&mut self, ended: &Ended) -> Result<(), StorageError> {
+        self.write_bytes(&encode_ended(&ended.record, &ended.memory))
+    }
+
+    fn write_bytes(&mut self, bytes: &[u8]) -> Result<(), StorageError> {
         if self.superseded {
             // Of two files the one with more steps counts: none of the run before may outlive the first of this one.
             remove(&self.paths[1 - self.next])?;
         }
-        atomic_file::write(&self.paths[self.next], &encode(simulation), true)?;
+        atomic_file::write(&self.paths[self.next], bytes, true)?;
         self.next = 1 - self.next;
         self.superseded = false;
         Ok(())
@@ -118,6 +131,12 @@ impl Pair {
     /// [`StorageError`] if one is there and cannot be removed.
     pub fn remove(&self) -> Result<(), StorageError> {
         self.paths.iter().try_for_each(|path| remove(path))
+    }
+
+    /// Whether the files that are there, if any, are those of a run that this one replaces.
+    #[must_use]
+    pub fn is_of_another_run(&self) -> bool {
+        self.superseded
     }
 
     /// The result file.
