@@ -3,7 +3,7 @@
 
 mod folder;
 
-use folder::{Folder, code, said};
+use folder::{Folder, code, said, wait_for};
 
 /// Refused only once the initial state is made; the run that is there goes on as if nothing had been asked.
 #[test]
@@ -70,4 +70,25 @@ fn a_stopped_run_without_its_checkpoint_leaves_its_result() {
     assert_eq!(code(&stopped), 5, "{}", said(&stopped));
     assert!(said(&stopped).contains("checkpoint-a: is not a plain file"), "{}", said(&stopped));
     assert_eq!(folder.record("out.h5").counters.steps, 1);
+}
+
+/// A link is another name of the file that it leads to, also before that file is there.
+#[cfg(unix)]
+#[test]
+fn a_link_to_a_result_is_the_same_result() {
+    let folder = Folder::new("linked");
+    std::fs::create_dir(folder.0.join("disk")).unwrap();
+    std::os::unix::fs::symlink("disk/real.h5", folder.0.join("link.h5")).unwrap();
+    let mut first = folder.long("link.h5").spawn().unwrap();
+    wait_for(&folder.0.join("disk/real.h5.lock"));
+    std::thread::sleep(std::time::Duration::from_millis(50));
+    let second = folder.call(&["run", "scene.toml", "-o", "disk/real.h5", "-q"]);
+    first.kill().unwrap();
+    first.wait().unwrap();
+    assert!(said(&second).contains("another run writes"), "{}", said(&second));
+    assert_eq!(code(&folder.call(&["run", "scene.toml", "-o", "link.h5", "--max-wall", "0"])), 6);
+    assert_eq!(folder.names(), ["disk", "link.h5", "scene.toml"]);
+    let resumed = folder.call(&["resume", "disk/real.h5"]);
+    assert_eq!(code(&resumed), 0, "{}", said(&resumed));
+    assert_eq!(folder.record("link.h5"), folder.record("disk/real.h5"));
 }

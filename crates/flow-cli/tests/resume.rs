@@ -108,9 +108,7 @@ fn without_a_whole_checkpoint_nothing_goes_on() {
 #[test]
 fn of_two_runs_to_one_file_the_second_is_refused() {
     let folder = Folder::new("two");
-    let long = ["run", "scene.toml", "-o", "out.h5", "-q", "--set", "accuracy.nodes=8192", "--set"];
-    let long = [&long[..], &["accuracy.tolerance=1e-10"]].concat();
-    let mut first = folder.command(&long).stderr(Stdio::null()).spawn().unwrap();
+    let mut first = folder.long("out.h5").spawn().unwrap();
     wait_for(&folder.0.join("out.h5.lock"));
     sleep(Duration::from_millis(50));
     let second = folder.call(&["run", "scene.toml", "-o", "out.h5", "-q"]);
@@ -128,9 +126,7 @@ fn of_two_runs_to_one_file_the_second_is_refused() {
 #[test]
 fn two_sigterms_in_a_row_keep_what_was_computed() {
     let folder = Folder::new("terms");
-    let long =
-        ["run", "scene.toml", "-o", "out.h5", "-q", "--checkpoint", "0", "--set", "accuracy.tolerance=1e-10"];
-    let mut child = folder.command(&[&long[..], &["--set", "accuracy.nodes=8192"]].concat()).spawn().unwrap();
+    let mut child = folder.long("out.h5").args(["--checkpoint", "0"]).spawn().unwrap();
     wait_for(&folder.0.join("out.h5.checkpoint-a"));
     for _ in 0..2 {
         assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());

@@ -33,6 +33,14 @@ impl Folder {
         self.command(arguments).output().unwrap()
     }
 
+    /// A run to `output` that takes long, and says nothing.
+    pub fn long(&self, output: &str) -> Command {
+        let large = ["--set", "accuracy.nodes=8192", "--set", "accuracy.tolerance=1e-10"];
+        let mut command = self.command(&["run", "scene.toml", "-o", output, "-q"]);
+        command.args(large).stderr(Stdio::null());
+        command
+    }
+
     /// Runs `command` in the shell, where the program is `"$0"`.
     pub fn shell(&self, command: &str) -> Output {
         let mut shell = Command::new("sh");

@@ -7,12 +7,13 @@ use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use super::links::followed;
 use super::{Operation, StorageError};
 
 /// Writes `bytes` to `path`; an existing file is replaced only if `replace`.
 ///
 /// The bytes go to a temporary file in the same folder, then to the disk, and get their name in one step. A
-/// symbolic link is followed: its target is replaced, the link stays.
+/// symbolic link is followed, also to a file that is not there yet: its target is replaced or made, the link stays.
 /// # Errors
 /// [`StorageError`]; the target is then as it was, and no temporary file is left.
 pub fn write(path: &Path, bytes: &[u8], replace: bool) -> Result<(), StorageError> {
@@ -62,7 +63,7 @@ struct Target {
 
 impl Target {
     fn new(given: &Path, replace: bool) -> Result<Self, StorageError> {
-        let path = fs::canonicalize(given).unwrap_or_else(|_| given.to_path_buf());
+        let path = followed(given);
         if path.file_name().is_none() {
             return Err(StorageError::NotAFile { path: given.to_path_buf() });
         }
@@ -249,5 +250,9 @@ mod tests {
         assert_eq!(fs::metadata(&path).unwrap().permissions().mode() & 0o777, 0o640);
         fs::set_permissions(&path, fs::Permissions::from_mode(0o440)).unwrap();
         assert!(matches!(write(&path, b"x", true), Err(StorageError::Protected { .. })));
+        fs::remove_file(&path).unwrap();
+        write(&link, b"newer", false).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"newer");
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
     }
 }

@@ -5,6 +5,7 @@ pub mod checkpoint;
 mod drawn;
 #[cfg(feature = "hdf5")]
 pub mod hdf5_file;
+mod links;
 pub mod page;
 #[cfg(feature = "picture")]
 pub mod picture;

@@ -1,9 +1,9 @@
 //! One run at a time for each result file.
 
-use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::path::{Path, PathBuf};
 
+use crate::output::links::beside;
 use crate::output::{Operation, StorageError};
 
 /// Held while a run writes to a result file; given back when dropped, and by the system if the process dies.
@@ -14,14 +14,12 @@ pub struct Lock {
 }
 
 impl Lock {
-    /// Takes the lock of the result file `result`.
+    /// Takes the lock of the result file `result`; all links to one file have the same.
     ///
     /// # Errors
     /// [`StorageError::Busy`] if another process has it.
     pub fn of(result: &Path) -> Result<Self, StorageError> {
-        let mut name = OsString::from(result);
-        name.push(".lock");
-        let path = PathBuf::from(name);
+        let path = beside(result, ".lock");
         loop {
             let file = OpenOptions::new().create(true).truncate(false).write(true).open(&path);
             let file = file.map_err(|reason| StorageError::system(result, Operation::Create, reason))?;

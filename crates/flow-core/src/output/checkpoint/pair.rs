@@ -1,12 +1,12 @@
 //! Two checkpoint files beside a result file: one is written while the other stays whole.
 
-use std::ffi::OsString;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use super::format::{Checkpoint, decode, encode, encode_ended};
 use super::saving::Ended;
+use crate::output::links::beside;
 use crate::output::{Operation, StorageError, atomic_file};
 use crate::run::Simulation;
 
@@ -35,14 +35,10 @@ pub struct Found {
 }
 
 impl Pair {
-    /// The files for the result file `result`; nothing is read or written.
+    /// The files for the result file `result`, beside the file that it leads to if it is a link; nothing is written.
     #[must_use]
     pub fn beside(result: &Path) -> Self {
-        let paths = SUFFIXES.map(|suffix| {
-            let mut name = OsString::from(result);
-            name.push(suffix);
-            PathBuf::from(name)
-        });
+        let paths = SUFFIXES.map(|suffix| beside(result, suffix));
         Self { result: result.to_path_buf(), paths, next: 0, superseded: false }
     }
 
