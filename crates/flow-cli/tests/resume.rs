@@ -146,6 +146,9 @@ fn a_run_that_is_done_needs_no_lock() {
     let done = folder.call(&["resume", "run.h5"]);
     assert_eq!(code(&done), 0, "{}", said(&done));
     assert!(said(&done).contains("nothing to do"), "{}", said(&done));
+    let done = folder.call(&["run", "circle", "-o", "run.h5", "--resume"]);
+    assert_eq!(code(&done), 0, "{}", said(&done));
+    assert!(said(&done).contains("nothing to do"), "{}", said(&done));
 }
 
 #[test]

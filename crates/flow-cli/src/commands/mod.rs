@@ -9,5 +9,6 @@ pub mod run;
 mod scene_args;
 pub mod scenes;
 pub mod schema;
+mod standing;
 pub mod tradeoff;
 pub mod view;

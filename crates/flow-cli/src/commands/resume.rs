@@ -2,13 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use flow_core::output::StorageError;
 use flow_core::output::atomic_file::check_writable;
-use flow_core::output::checkpoint::{Found, Lock, Pair};
-use flow_core::output::{StorageError, hdf5_file};
+use flow_core::output::checkpoint::{Found, Pair};
 use flow_core::run::{Record, StopReason};
 
 use super::conduct::{Conduct, say_doubts};
 use super::info;
+use super::standing::Standing;
 use crate::error::CliError;
 use crate::print::{self, counted};
 
@@ -25,15 +26,10 @@ pub struct Args {
 /// Goes on to the end of the run.
 pub fn execute(args: &Args) -> Result<(), CliError> {
     let mut pair = Pair::beside(&args.output);
-    let lock = Lock::of(&args.output);
-    match (pair.newest()?, lock) {
-        // A run that is done may lie where nothing can be written, not even a lock.
-        (None, Ok(_) | Err(StorageError::System { .. })) if args.output.exists() => {
-            already_done(&args.conduct, &hdf5_file::read(&args.output)?, &args.output)
-        }
-        (_, Err(error)) => Err(error.into()),
-        (Some(found), Ok(_lock)) => go_on(&args.conduct, found, pair),
-        (None, Ok(_)) => Err(StorageError::NoCheckpoint { path: args.output.clone() }.into()),
+    match Standing::of(&mut pair)? {
+        Standing::Stopped(found, _lock) => go_on(&args.conduct, *found, pair),
+        Standing::Over(record) => already_done(&args.conduct, &record, &args.output),
+        Standing::Nothing(_) => Err(StorageError::NoCheckpoint { path: args.output.clone() }.into()),
     }
 }
 
@@ -58,7 +54,7 @@ pub fn go_on(conduct: &Conduct, found: Found, pair: Pair) -> Result<(), CliError
     conduct.run(simulation, pair, true)
 }
 
-/// There is a result and no checkpoint: the run came to its end, or its checkpoints were removed.
+/// Says how the run of `record` ended, without a checkpoint to go on from.
 pub fn already_done(conduct: &Conduct, record: &Record, output: &Path) -> Result<(), CliError> {
     let path = output.to_path_buf();
     match &record.stop_reason {

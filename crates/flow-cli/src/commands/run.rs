@@ -1,15 +1,16 @@
 //! `curveflow run SCENE`: integrate one scene and write its result file.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
+use flow_core::output::StorageError;
 use flow_core::output::atomic_file::check_writable;
-use flow_core::output::checkpoint::{Found, Lock, Pair};
-use flow_core::output::{StorageError, hdf5_file};
+use flow_core::output::checkpoint::Pair;
 use flow_core::run::{Scene, Simulation};
 
 use super::conduct::Conduct;
 use super::resume;
 use super::scene_args::SceneArgs;
+use super::standing::{Standing, lock};
 use crate::error::CliError;
 
 /// Integrate a scene and write its result file.
@@ -36,17 +37,17 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     let output = args.output.clone().unwrap_or_else(|| args.scene.stem().with_extension("h5"));
     let mut pair = Pair::beside(&output);
     if args.resume {
-        return go_on(args, &scene, &output, pair);
+        return go_on(args, &scene, output, pair);
     }
     if let Err(error) = check_writable(&output, args.replace) {
         if matches!(error, StorageError::Exists { .. }) {
             // That a run can go on is better news than that a file is in the way.
-            let _lock = Lock::of(&output)?;
+            let _lock = lock(&output)?;
             pair.start_anew(false)?;
         }
         return Err(error.into());
     }
-    let _lock = Lock::of(&output)?;
+    let _lock = lock(&output)?;
     pair.start_anew(args.replace)?;
     args.conduct.run(simulation(args, &scene)?, pair, args.replace)
 }
@@ -55,22 +56,16 @@ fn simulation(args: &Args, scene: &Scene) -> Result<Simulation, CliError> {
     Simulation::new(scene).map_err(|error| args.scene.unusable(error))
 }
 
-fn go_on(args: &Args, scene: &Scene, output: &Path, mut pair: Pair) -> Result<(), CliError> {
-    let _lock = Lock::of(output)?;
-    match pair.newest()? {
-        Some(Found { checkpoint, .. }) if checkpoint.scene.given != scene.text() => {
-            Err(CliError::OtherScene { output: output.to_path_buf() })
+fn go_on(args: &Args, scene: &Scene, output: PathBuf, mut pair: Pair) -> Result<(), CliError> {
+    match Standing::of(&mut pair)? {
+        Standing::Stopped(found, _) if found.checkpoint.scene.given != scene.text() => {
+            Err(CliError::OtherScene { output })
         }
-        Some(found) => resume::go_on(&args.conduct, found, pair),
-        None if output.exists() => {
-            let record = hdf5_file::read(output)?;
-            if record.scene != scene.text() {
-                return Err(CliError::OtherScene { output: output.to_path_buf() });
-            }
-            resume::already_done(&args.conduct, &record, output)
-        }
-        None => {
-            check_writable(output, false)?;
+        Standing::Over(record) if record.scene != scene.text() => Err(CliError::OtherScene { output }),
+        Standing::Stopped(found, _lock) => resume::go_on(&args.conduct, *found, pair),
+        Standing::Over(record) => resume::already_done(&args.conduct, &record, &output),
+        Standing::Nothing(_lock) => {
+            check_writable(&output, false)?;
             args.conduct.run(simulation(args, scene)?, pair, false)
         }
     }

@@ -1,6 +1,7 @@
 //! One run at a time for each result file.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use crate::output::links::beside;
@@ -11,6 +12,7 @@ use crate::output::{Operation, StorageError};
 pub struct Lock {
     path: PathBuf,
     _file: File,
+    missing: Option<io::Error>,
 }
 
 impl Lock {
@@ -19,21 +21,35 @@ impl Lock {
     /// # Errors
     /// [`StorageError::Busy`] if another process has it.
     pub fn of(result: &Path) -> Result<Self, StorageError> {
+        Self::taken_by(File::try_lock, result)
+    }
+
+    /// Why the file system, which has no locks, cannot tell others that a run writes here; none if it can.
+    #[must_use]
+    pub fn missing(&self) -> Option<&io::Error> {
+        self.missing.as_ref()
+    }
+
+    fn taken_by(
+        try_lock: impl Fn(&File) -> Result<(), TryLockError>,
+        result: &Path,
+    ) -> Result<Self, StorageError> {
         let path = beside(result, ".lock");
         loop {
             let file = OpenOptions::new().create(true).truncate(false).write(true).open(&path);
             let file = file.map_err(|reason| StorageError::system(result, Operation::Create, reason))?;
-            match file.try_lock() {
+            let missing = match try_lock(&file) {
                 // The one before us may have removed the file that we opened.
-                Ok(()) if is_named(&file, &path) => return Ok(Self { path, _file: file }),
-                Ok(()) => {}
+                Ok(()) if !is_named(&file, &path) => continue,
+                Ok(()) => None,
                 Err(TryLockError::WouldBlock) => {
                     return Err(StorageError::Busy { path: result.to_path_buf() });
                 }
-                Err(TryLockError::Error(reason)) => {
-                    return Err(StorageError::system(result, Operation::Create, reason));
-                }
-            }
+                Err(TryLockError::Error(reason)) if reason.kind() == ErrorKind::Interrupted => continue,
+                // Some network file systems have no locks, or none at the moment, and say so in several ways.
+                Err(TryLockError::Error(reason)) => Some(reason),
+            };
+            return Ok(Self { path, _file: file, missing });
         }
     }
 }
@@ -59,4 +75,23 @@ fn is_named(file: &File, path: &Path) -> bool {
 #[cfg(not(unix))]
 fn is_named(_: &File, _: &Path) -> bool {
     true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn where_there_are_no_locks_a_run_goes_on_and_can_tell_so() {
+        let result = std::env::temp_dir().join(format!("curveflow-lock-{}.h5", std::process::id()));
+        let none = |_: &File| Err(TryLockError::Error(ErrorKind::Unsupported.into()));
+        let lock = Lock::taken_by(none, &result).unwrap();
+        assert_eq!(lock.missing().unwrap().kind(), ErrorKind::Unsupported);
+        drop(lock);
+        let lock = Lock::of(&result).unwrap();
+        assert!(lock.missing().is_none());
+        assert!(matches!(Lock::of(&result), Err(StorageError::Busy { .. })));
+        drop(lock);
+        assert!(!beside(&result, ".lock").exists());
+    }
 }
