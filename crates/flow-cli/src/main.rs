@@ -56,7 +56,7 @@ impl Command {
 fn main() -> ExitCode {
     // A wrong command line ends here: clap prints its message and exits with 2.
     let cli = Cli::parse();
-    match panic::catch_unwind(|| cli.command.execute()) {
+    match panic::catch_unwind(|| signals::let_large_writes_fail().and_then(|()| cli.command.execute())) {
         Ok(Ok(())) => ExitCode::SUCCESS,
         Ok(Err(error)) => {
             print::talk(&message(&error));

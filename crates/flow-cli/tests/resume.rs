@@ -4,8 +4,6 @@
 mod folder;
 
 use std::fs;
-#[cfg(unix)]
-use std::process::Command;
 use std::process::Stdio;
 use std::thread::sleep;
 use std::time::Duration;
@@ -119,22 +117,6 @@ fn of_two_runs_to_one_file_the_second_is_refused() {
     // The lock of a killed process is free.
     let third = folder.call(&["run", "scene.toml", "-o", "out.h5", "-q", "--max-wall", "0"]);
     assert_eq!(code(&third), 6, "{}", said(&third));
-}
-
-/// As `timeout` and batch systems stop what they have started.
-#[cfg(unix)]
-#[test]
-fn two_sigterms_in_a_row_keep_what_was_computed() {
-    let folder = Folder::new("terms");
-    let mut child = folder.long("out.h5").args(["--checkpoint", "0"]).spawn().unwrap();
-    wait_for(&folder.0.join("out.h5.checkpoint-a"));
-    for _ in 0..2 {
-        assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
-        sleep(Duration::from_millis(1));
-    }
-    assert_eq!(child.wait().unwrap().code(), Some(6));
-    assert!(folder.record("out.h5").counters.steps > 0);
-    assert!(!folder.names().contains(&"out.h5.lock".to_owned()));
 }
 
 /// A lock cannot be made in a folder that may only be read; here something else has its name.

@@ -1,6 +1,8 @@
 //! Takes a run to its end, with checkpoints beside its result file, and says how it went.
 
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use flow_core::output::checkpoint::{Ended, Pair, Saving, run_saving};
@@ -19,7 +21,7 @@ pub struct Conduct {
     /// Seconds between two checkpoints, which are written beside the result file until that is done.
     #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = seconds)]
     pub checkpoint: Duration,
-    /// Stop after this time with a checkpoint (exit code 6).
+    /// Stop this time after the start of the command, with a checkpoint (exit code 6).
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub max_wall: Option<Duration>,
     /// Print the summary as JSON.
@@ -28,6 +30,20 @@ pub struct Conduct {
     /// Show no progress and print no summary.
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+/// When a command began, and whether somebody has wanted it to stop since.
+#[derive(Debug)]
+pub struct Outset {
+    began: Instant,
+    stop: Arc<AtomicBool>,
+}
+
+impl Outset {
+    /// To be called first: setting up a scene takes time, and signals may come.
+    pub fn now() -> Result<Self, CliError> {
+        Ok(Self { began: Instant::now(), stop: stop_flag()? })
+    }
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {
@@ -39,10 +55,17 @@ fn seconds(text: &str) -> Result<Duration, String> {
 impl Conduct {
     /// Runs `simulation`; its result goes to the file of `pair`, also if the run fails or is stopped, and its checkpoints
     /// go once it is done.
-    pub fn run(&self, simulation: Simulation, pair: Pair, replace: bool) -> Result<(), CliError> {
-        let clock = Instant::now();
-        let limit = self.max_wall.map(|limit| clock + limit);
-        let mut reporter = Reporter::new(self.quiet, stop_flag()?, limit);
+    pub fn run(
+        &self,
+        outset: Outset,
+        simulation: Simulation,
+        pair: Pair,
+        replace: bool,
+    ) -> Result<(), CliError> {
+        let Outset { began, stop } = outset;
+        // A time that the clock cannot tell is never reached.
+        let limit = self.max_wall.and_then(|limit| began.checked_add(limit));
+        let mut reporter = Reporter::new(self.quiet, stop, limit);
         let mut warn = self.once_each(reporter.voice());
         let mut saving = Saving { pair, interval: self.checkpoint, missed: &mut warn };
         let mut ended = run_saving(simulation, &mut reporter, &mut saving);
@@ -55,7 +78,7 @@ impl Conduct {
         let stopped = record.stop_reason == StopReason::Interrupted;
         let goes_on = stopped && !saving.pair.is_of_another_run();
         let removed = if goes_on { Ok(()) } else { saving.pair.remove() };
-        let seconds = clock.elapsed().as_secs_f64();
+        let seconds = began.elapsed().as_secs_f64();
         if self.json {
             print::data(&info::json(&record))?;
         } else if !self.quiet {

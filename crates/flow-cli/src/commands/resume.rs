@@ -7,7 +7,7 @@ use flow_core::output::atomic_file::check_writable;
 use flow_core::output::checkpoint::{Found, Pair};
 use flow_core::run::{Record, StopReason};
 
-use super::conduct::{Conduct, say_doubts};
+use super::conduct::{Conduct, Outset, say_doubts};
 use super::info;
 use super::standing::Standing;
 use crate::error::CliError;
@@ -25,16 +25,17 @@ pub struct Args {
 
 /// Goes on to the end of the run.
 pub fn execute(args: &Args) -> Result<(), CliError> {
+    let outset = Outset::now()?;
     let mut pair = Pair::beside(&args.output);
     match Standing::of(&mut pair)? {
-        Standing::Stopped(found, _lock) => go_on(&args.conduct, *found, pair),
+        Standing::Stopped(found, _lock) => go_on(&args.conduct, outset, *found, pair),
         Standing::Over(record) => already_done(&args.conduct, &record, &args.output),
         Standing::Nothing(_) => Err(StorageError::NoCheckpoint { path: args.output.clone() }.into()),
     }
 }
 
 /// Goes on from what was found.
-pub fn go_on(conduct: &Conduct, found: Found, pair: Pair) -> Result<(), CliError> {
+pub fn go_on(conduct: &Conduct, outset: Outset, found: Found, pair: Pair) -> Result<(), CliError> {
     check_writable(pair.result(), true)?;
     if let Some(damaged) = &found.damaged {
         print::talk(&format!(
@@ -51,7 +52,7 @@ pub fn go_on(conduct: &Conduct, found: Found, pair: Pair) -> Result<(), CliError
         ));
     }
     let simulation = found.checkpoint.simulation(&found.path)?;
-    conduct.run(simulation, pair, true)
+    conduct.run(outset, simulation, pair, true)
 }
 
 /// Says how the run of `record` ended, without a checkpoint to go on from.

@@ -7,7 +7,7 @@ use flow_core::output::atomic_file::check_writable;
 use flow_core::output::checkpoint::Pair;
 use flow_core::run::{Scene, Simulation};
 
-use super::conduct::Conduct;
+use super::conduct::{Conduct, Outset};
 use super::resume;
 use super::scene_args::SceneArgs;
 use super::standing::{Standing, lock};
@@ -33,11 +33,12 @@ pub struct Args {
 
 /// Runs the scene. What was computed is written also if the run fails or is stopped.
 pub fn execute(args: &Args) -> Result<(), CliError> {
+    let outset = Outset::now()?;
     let scene = args.scene.read()?;
     let output = args.output.clone().unwrap_or_else(|| args.scene.stem().with_extension("h5"));
     let mut pair = Pair::beside(&output);
     if args.resume {
-        return go_on(args, &scene, output, pair);
+        return go_on(args, outset, &scene, output, pair);
     }
     if let Err(error) = check_writable(&output, args.replace) {
         if matches!(error, StorageError::Exists { .. }) {
@@ -49,24 +50,30 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     }
     let _lock = lock(&output)?;
     pair.start_anew(args.replace)?;
-    args.conduct.run(simulation(args, &scene)?, pair, args.replace)
+    args.conduct.run(outset, simulation(args, &scene)?, pair, args.replace)
 }
 
 fn simulation(args: &Args, scene: &Scene) -> Result<Simulation, CliError> {
     Simulation::new(scene).map_err(|error| args.scene.unusable(error))
 }
 
-fn go_on(args: &Args, scene: &Scene, output: PathBuf, mut pair: Pair) -> Result<(), CliError> {
+fn go_on(
+    args: &Args,
+    outset: Outset,
+    scene: &Scene,
+    output: PathBuf,
+    mut pair: Pair,
+) -> Result<(), CliError> {
     match Standing::of(&mut pair)? {
         Standing::Stopped(found, _) if found.checkpoint.scene.given != scene.text() => {
             Err(CliError::OtherScene { output })
         }
         Standing::Over(record) if record.scene != scene.text() => Err(CliError::OtherScene { output }),
-        Standing::Stopped(found, _lock) => resume::go_on(&args.conduct, *found, pair),
+        Standing::Stopped(found, _lock) => resume::go_on(&args.conduct, outset, *found, pair),
         Standing::Over(record) => resume::already_done(&args.conduct, &record, &output),
         Standing::Nothing(_lock) => {
             check_writable(&output, false)?;
-            args.conduct.run(simulation(args, scene)?, pair, false)
+            args.conduct.run(outset, simulation(args, scene)?, pair, false)
         }
     }
 }
