@@ -1,13 +1,11 @@
 //! Writes a file so that its name holds either the old content or all of the new, even after a crash.
 
-use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
-use std::process;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::links::followed;
+use super::temporary::Temporary;
 use super::{Operation, StorageError};
 
 /// Writes `bytes` to `path`; an existing file is replaced only if `replace`.
@@ -24,8 +22,7 @@ pub fn write(path: &Path, bytes: &[u8], replace: bool) -> Result<(), StorageErro
 /// # Errors
 /// The [`StorageError`] that [`write()`] would give.
 pub fn check_writable(path: &Path, replace: bool) -> Result<(), StorageError> {
-    let target = Target::new(path, replace)?;
-    Temporary::new(&target).map(drop)
+    Target::new(path, replace)?.temporary().map(drop)
 }
 
 fn write_with(
@@ -34,7 +31,7 @@ fn write_with(
     content: impl FnOnce(&mut File) -> io::Result<()>,
 ) -> Result<(), StorageError> {
     let target = Target::new(path, replace)?;
-    let mut temporary = Temporary::new(&target)?;
+    let mut temporary = target.temporary()?;
     let failed = |operation| move |reason| StorageError::system(path, operation, reason);
     content(&mut temporary.file).map_err(failed(Operation::Write))?;
     if let Some(permissions) = target.permissions.clone() {
@@ -88,34 +85,10 @@ impl Target {
         };
         Ok(Self { path, folder, permissions })
     }
-}
 
-/// The temporary file, removed when dropped unless it was renamed before.
-struct Temporary {
-    path: PathBuf,
-    file: File,
-}
-
-impl Temporary {
-    fn new(target: &Target) -> Result<Self, StorageError> {
-        static COUNTER: AtomicU64 = AtomicU64::new(0);
-        loop {
-            let mut name = OsString::from(".curveflow-");
-            name.push(format!("{}-{}.partial", process::id(), COUNTER.fetch_add(1, Ordering::Relaxed)));
-            let path = target.folder.join(name);
-            match OpenOptions::new().write(true).create_new(true).open(&path) {
-                Ok(file) => return Ok(Self { path, file }),
-                Err(reason) if reason.kind() == ErrorKind::AlreadyExists => {}
-                Err(reason) => return Err(StorageError::system(&target.path, Operation::Create, reason)),
-            }
-        }
-    }
-}
-
-impl Drop for Temporary {
-    fn drop(&mut self) {
-        // After a rename there is nothing left to remove, and on the way out of an error no one to tell.
-        let _ = fs::remove_file(&self.path);
+    fn temporary(&self) -> Result<Temporary, StorageError> {
+        Temporary::beside(&self.path)
+            .map_err(|reason| StorageError::system(&self.path, Operation::Create, reason))
     }
 }
 
@@ -151,6 +124,8 @@ fn sync_folder(_: &Path) -> io::Result<()> {
 
 #[cfg(test)]
 mod tests {
+    use std::process;
+
     use super::*;
 
     /// A fresh folder, removed at the end of the test.

@@ -10,5 +10,6 @@ pub mod page;
 #[cfg(feature = "picture")]
 pub mod picture;
 mod storage_error;
+mod temporary;
 
 pub use storage_error::{Operation, StorageError};

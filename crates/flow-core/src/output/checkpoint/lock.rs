@@ -4,7 +4,9 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use crate::output::links::beside;
+use super::pair::files;
+use crate::output::links::{beside, followed};
+use crate::output::temporary::remove_left;
 use crate::output::{Operation, StorageError};
 
 /// Held while a run writes to a result file; given back when dropped, and by the system if the process dies.
@@ -16,12 +18,17 @@ pub struct Lock {
 }
 
 impl Lock {
-    /// Takes the lock of the result file `result`; all links to one file have the same.
+    /// Takes the lock of the result file `result`; all links to one file have the same. What killed processes have left there half
+    /// written is removed.
     ///
     /// # Errors
     /// [`StorageError::Busy`] if another process has it.
     pub fn of(result: &Path) -> Result<Self, StorageError> {
-        Self::taken_by(File::try_lock, result)
+        let lock = Self::taken_by(File::try_lock, result)?;
+        if lock.missing.is_none() {
+            [followed(result)].iter().chain(&files(result)).for_each(|path| remove_left(path));
+        }
+        Ok(lock)
     }
 
     /// Why the file system, which has no locks, cannot tell others that a run writes here; none if it can.

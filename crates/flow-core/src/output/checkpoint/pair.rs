@@ -38,7 +38,7 @@ impl Pair {
     /// The files for the result file `result`, beside the file that it leads to if it is a link; nothing is written.
     #[must_use]
     pub fn beside(result: &Path) -> Self {
-        let paths = SUFFIXES.map(|suffix| beside(result, suffix));
+        let paths = files(result);
         Self { result: result.to_path_buf(), paths, next: 0, superseded: false }
     }
 
@@ -140,6 +140,11 @@ impl Pair {
     pub fn result(&self) -> &Path {
         &self.result
     }
+}
+
+/// Names of the checkpoints of `result`.
+pub(super) fn files(result: &Path) -> [PathBuf; 2] {
+    SUFFIXES.map(|suffix| beside(result, suffix))
 }
 
 /// Removes a file, if it is there.
