@@ -283,10 +283,14 @@ class Simulation:
         """What was computed so far, as :func:`run` returns it."""
         return Result(self._native.record(), self._scene)
 
-    def checkpoint(self, path: str | os.PathLike[str]) -> None:
-        """Write a file from which :meth:`resume` can continue; an existing file is replaced once the new one is whole.
+    def checkpoint(self, path: str | os.PathLike[str], *, replace: bool = False) -> None:
+        """Write a file from which :meth:`resume` can continue. An existing checkpoint is replaced once the new one is whole.
+
+        Args:
+            path: its name.
+            replace: whether an existing file that is no checkpoint may be replaced too.
 
         Raises:
-            StorageError: the file cannot be written.
+            StorageError: the file exists and is no checkpoint, or cannot be written; an existing file is then as it was.
         """
-        self._native.checkpoint(path)
+        self._native.checkpoint(path, replace)

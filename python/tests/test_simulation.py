@@ -56,6 +56,17 @@ def test_it_stops_where_it_is_asked_to(scene: cf.Scene):
     assert cf.run(scene).energy[-1] == pytest.approx(simulation.state.energy, rel=1e-5)
 
 
+@pytest.mark.parametrize("content", [b"", b"[curve]\nshape = 'circle'\n", b"\x89HDF\r\n\x1a\n"])
+def test_a_checkpoint_replaces_checkpoints_only(scene: cf.Scene, tmp_path: Path, content: bytes):
+    simulation, path = cf.Simulation(scene), tmp_path / "file"
+    path.write_bytes(content)
+    with pytest.raises(cf.StorageError, match="already exists.*replace=True"):
+        simulation.checkpoint(path)
+    assert path.read_bytes() == content
+    simulation.checkpoint(path, replace=True)
+    assert cf.Simulation.resume(path).steps == 0
+
+
 def test_a_checkpoint_goes_on_to_the_same_bits(scene: cf.Scene, tmp_path: Path):
     whole = cf.run(scene)
     simulation = cf.Simulation(scene)
@@ -70,6 +81,8 @@ def test_a_checkpoint_goes_on_to_the_same_bits(scene: cf.Scene, tmp_path: Path):
     path.write_bytes(path.read_bytes()[:-1])
     with pytest.raises(cf.StorageError, match="damaged"):
         cf.Simulation.resume(path)
+    simulation.checkpoint(path)  # one that is damaged, too, is replaced
+    assert cf.Simulation.resume(path).steps == 17
     with pytest.raises(cf.StorageError, match="cannot read"):
         cf.Simulation.resume(tmp_path / "none")
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard};
 use std::time::Duration;
 
-use flow_core::output::{StorageError, atomic_file, checkpoint};
+use flow_core::output::{StorageError, checkpoint};
 use flow_core::run::{self as core, Frame, StepLog};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -132,11 +132,11 @@ impl Simulation {
         Ok(Record::new(detached::<_, StorageError>(py, || Ok(simulation.record()))?))
     }
 
-    /// Writes a checkpoint.
-    fn checkpoint(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+    /// Writes a checkpoint, in place of another one; of another file only if `replace`.
+    fn checkpoint(&self, py: Python<'_>, path: PathBuf, replace: bool) -> PyResult<()> {
         let guard = self.lock()?;
         let simulation = &*guard;
-        detached(py, || atomic_file::write(&path, &checkpoint::encode(simulation), true))
+        detached(py, || checkpoint::write(simulation, &path, replace))
     }
 }
 

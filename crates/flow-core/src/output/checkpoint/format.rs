@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::output::StorageError;
 use crate::run::{Frame, Memory, Record, Scene, Simulation, StepLog};
 
-const MAGIC: &[u8; 8] = b"\x89CFCKPT\n";
+pub(super) const MAGIC: &[u8; 8] = b"\x89CFCKPT\n";
 const FOOTER: &[u8; 8] = b"CFCKEND\n";
 /// Changes when what the sections hold changes.
 const VERSION: u32 = 8;

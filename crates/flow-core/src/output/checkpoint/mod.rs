@@ -1,11 +1,13 @@
 //! Checkpoints: all that a run must know to go on in another process, in two files that take turns.
 
+mod file;
 mod format;
 mod lock;
 mod pair;
 mod saving;
 
+pub use file::{read, write};
 pub use format::{Checkpoint, SceneTexts, decode, encode};
 pub use lock::Lock;
-pub use pair::{Found, Pair, read};
+pub use pair::{Found, Pair};
 pub use saving::{Ended, Saving, run_saving};

@@ -4,7 +4,8 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use super::format::{Checkpoint, decode, encode, encode_ended};
+use super::file::read;
+use super::format::{Checkpoint, encode, encode_ended};
 use super::saving::Ended;
 use crate::output::links::beside;
 use crate::output::{Operation, StorageError, atomic_file};
@@ -155,17 +156,4 @@ fn remove(path: &Path) -> Result<(), StorageError> {
         }
         _ => Ok(()),
     }
-}
-
-/// The checkpoint in a file.
-///
-/// # Errors
-/// [`StorageError`] if it cannot be read, is no checkpoint or is damaged.
-pub fn read(path: &Path) -> Result<Checkpoint, StorageError> {
-    let failed = |reason| StorageError::system(path, Operation::Read, reason);
-    // Asked before opening: a pipe would wait for its other end, a device need not end at all.
-    if !fs::metadata(path).map_err(failed)?.is_file() {
-        return Err(StorageError::NotAFile { path: path.to_path_buf() });
-    }
-    decode(&fs::read(path).map_err(failed)?, path)
 }

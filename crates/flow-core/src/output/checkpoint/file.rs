@@ -1,0 +1,37 @@
+//! One checkpoint in a file of any name.
+
+use std::fs::{self, File};
+use std::io::Read;
+use std::path::Path;
+
+use super::format::{Checkpoint, MAGIC, decode, encode};
+use crate::output::{Operation, StorageError, atomic_file};
+use crate::run::Simulation;
+
+/// The checkpoint in a file.
+///
+/// # Errors
+/// [`StorageError`] if it cannot be read, is no checkpoint or is damaged.
+pub fn read(path: &Path) -> Result<Checkpoint, StorageError> {
+    let failed = |reason| StorageError::system(path, Operation::Read, reason);
+    // Asked before opening: a pipe would wait for its other end, a device need not end at all.
+    if !fs::metadata(path).map_err(failed)?.is_file() {
+        return Err(StorageError::NotAFile { path: path.to_path_buf() });
+    }
+    decode(&fs::read(path).map_err(failed)?, path)
+}
+
+/// Saves `simulation` to `path`. Another checkpoint there, of any version, is replaced; any other file only if `replace`.
+///
+/// # Errors
+/// [`StorageError`]; the file is then as it was.
+pub fn write(simulation: &Simulation, path: &Path, replace: bool) -> Result<(), StorageError> {
+    atomic_file::write(path, &encode(simulation), replace || is_checkpoint(path))
+}
+
+fn is_checkpoint(path: &Path) -> bool {
+    let mut start = [0; MAGIC.len()];
+    fs::metadata(path).is_ok_and(|found| found.is_file())
+        && File::open(path).and_then(|mut file| file.read_exact(&mut start)).is_ok()
+        && start == *MAGIC
+}
