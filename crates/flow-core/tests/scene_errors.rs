@@ -54,6 +54,33 @@ fn one_mistake_is_one_problem() {
     }
 }
 
+/// What terms ask of densities is no second problem where the densities themselves are refused.
+#[test]
+fn consequences_of_refused_densities_are_silent() {
+    let terms = "[energy.packing]\nmatrix = [[1.0, 0.1], [0.1, 1.0]]\nepsilon = 0.1\n\
+                 [energy.local]\nexpression = '0.02*protein_sigma^2 + 0.02*other_sigma^2'\n\
+                 [energy.membrane]\ndensity = 'protein'\nepsilon = 0.05\n";
+    let one =
+        "[[density]]\nname = \"protein\"\ninitial = \"0.5 + 0.1*cos(2*pi*s)\"\nmobility = \"diffusion\"\n";
+    let two = format!("{one}{}", one.replace("protein", "other"));
+    let good = GOOD.replace(one, &two) + terms;
+    Scene::parse(&good, "good.toml").unwrap();
+    let refused = [
+        (good.replace(&two, &two.repeat(4)), "density"),
+        (good.replace("\"other\"", "\"other-1\""), "density.1.name"),
+        (good.replace("name = \"other\"", ""), "density.1.name"),
+        (format!("density = 3\n{}", good.replace(&two, "")), "density"),
+    ];
+    for (text, key) in refused {
+        let error = Scene::parse(&text, "bad.toml").unwrap_err();
+        let [problem] = error.problems() else { panic!("{error}") };
+        assert_eq!(problem.key, key, "{error}");
+    }
+    // What has nothing to do with densities is said all the same.
+    let text = good.replace(&two, &two.repeat(4)).replace("epsilon = 0.05", "epsilon = -1.0");
+    assert_eq!(Scene::parse(&text, "bad.toml").unwrap_err().problems().len(), 2);
+}
+
 /// What has a limit is refused before it is read, whatever it holds.
 #[test]
 fn more_than_there_may_be_is_refused_at_once() {

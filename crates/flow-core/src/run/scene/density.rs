@@ -5,10 +5,11 @@ use serde::Serialize;
 
 use super::choice::names;
 use super::entry::Entry;
-use super::error::{Bound, Fault};
+use super::error::{Bound, Fault, Problem};
 use super::formula::Formula;
 use super::keywords::Within;
 use super::section::Section;
+use crate::expression::ExpressionError;
 
 /// Names that mean something in expressions; a density called so could not be written there.
 const RESERVED: [&str; 20] = [
@@ -65,21 +66,44 @@ names! {
     }
 }
 
+/// Names of the densities.
+#[derive(Default)]
+pub(super) struct Names {
+    /// Those that are in order.
+    pub known: Vec<String>,
+    /// Whether there are no others, which were refused.
+    pub are_all: bool,
+}
+
+impl Names {
+    /// Whether `problem` may be no more than a consequence of names that were refused.
+    pub(super) fn may_cause(&self, problem: &Problem) -> bool {
+        let of_a_density = match &problem.fault {
+            Fault::UnknownDensity { .. } | Fault::NoDensity { .. } => true,
+            Fault::Expression { source, .. } => matches!(source, ExpressionError::UnknownName { .. }),
+            Fault::WrongCount { .. } => problem.key.starts_with("energy.packing.matrix"),
+            _ => false,
+        };
+        !self.are_all && of_a_density && problem.key.starts_with("energy.")
+    }
+}
+
 impl Density {
-    /// Reads `[[density]]`; names that are in order come second, whether or not the rest is.
-    pub(super) fn read_all(entry: Option<Entry<'_>>) -> (Option<Vec<Self>>, Vec<String>) {
-        let Some(list) = entry else { return (Some(Vec::new()), Vec::new()) };
-        let Some(entries) = list.list("a list of tables") else { return (None, Vec::new()) };
+    /// Reads `[[density]]`; the names come second, whether or not the rest is in order.
+    pub(super) fn read_all(entry: Option<Entry<'_>>) -> (Option<Vec<Self>>, Names) {
+        let Some(list) = entry else { return (Some(Vec::new()), Names { known: Vec::new(), are_all: true }) };
+        let Some(entries) = list.list("a list of tables") else { return (None, Names::default()) };
         if entries.len() > MAX_DENSITIES {
             let bound = Bound::Between(0.0, MAX_DENSITIES as f64);
             let remedy = "leave some out; what several densities share can be one";
             list.fault(Fault::WrongCount { count: entries.len(), bound, remedy });
-            return (None, Vec::new());
+            return (None, Names::default());
         }
-        let mut names = Vec::new();
-        let read = |entry: Entry<'_>| Self::read(entry.section()?, &mut names);
+        let (mut known, count) = (Vec::new(), entries.len());
+        let read = |entry: Entry<'_>| Self::read(entry.section()?, &mut known);
         let densities: Vec<Option<Self>> = entries.into_iter().map(read).collect();
-        (densities.into_iter().collect(), names)
+        let are_all = known.len() == count;
+        (densities.into_iter().collect(), Names { known, are_all })
     }
 
     fn read(mut section: Section<'_>, names: &mut Vec<String>) -> Option<Self> {

@@ -256,12 +256,13 @@ fn read(mut root: Section<'_>) -> Option<Scene> {
     let (density, names) = Density::read_all(root.get("density"));
     let energy = root.required("energy", "[energy.bending] with rigidity = 1.0");
     let energy = energy.and_then(|entry| {
-        let energy = Energy::read(entry.section()?, &names);
+        let energy = Energy::read(entry.section()?, &names.known);
         if energy.is_none() {
             root.fault("energy", Fault::MissingKey { example: "[energy.bending] with rigidity = 1.0" });
         }
         energy
     });
+    root.take_back(|problem| names.may_cause(problem));
     let time = root.required("time", "[time] with end = 1.0");
     let time = time.and_then(|entry| Time::read(entry.section()?));
     let end = time.as_ref().map(|time| time.end);

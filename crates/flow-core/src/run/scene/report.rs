@@ -33,6 +33,11 @@ impl<'a> Report<'a> {
         self.problems.borrow_mut().push(Problem { key: key.to_owned(), place, fault });
     }
 
+    /// Takes back what has turned out to be a consequence of another problem.
+    pub(super) fn take_back(&self, is_consequence: impl Fn(&Problem) -> bool) {
+        self.problems.borrow_mut().retain(|problem| !is_consequence(problem));
+    }
+
     /// The one way to say that something is planned but not built; `available` is what to use instead.
     pub(super) fn unsupported(
         &self,

@@ -5,7 +5,7 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
 use super::entry::Entry;
-use super::error::Fault;
+use super::error::{Fault, Problem};
 use super::report::Report;
 use super::suggest::nearest;
 
@@ -64,6 +64,11 @@ impl<'d> Section<'d> {
     pub(super) fn fault(&self, key: &str, fault: Fault) {
         let span = self.table.get_key_value(key).map_or(self.span.clone(), |(name, _)| name.span());
         self.report.add(&self.path_to(key), &span, fault);
+    }
+
+    /// Takes back problems, also of other tables, that are consequences of others.
+    pub(super) fn take_back(&self, is_consequence: impl Fn(&Problem) -> bool) {
+        self.report.take_back(is_consequence);
     }
 
     /// Ends the reading: keys that nobody asked for are unknown, keys that must be there are missing.
