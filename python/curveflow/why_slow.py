@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from types import MappingProxyType
+from typing import Any
 
 from . import _curveflow
 
@@ -62,5 +63,16 @@ class WhySlow:
         """Seconds of the run."""
         return sum(self.seconds.values())
 
+    def __reduce__(self) -> tuple[object, ...]:
+        values = {field.name: getattr(self, field.name) for field in fields(self)}
+        return _why_slow, (values | {name: dict(values[name]) for name in _MAPPINGS},)
+
     def __repr__(self) -> str:
         return self._text
+
+
+_MAPPINGS = ("seconds", "evaluation_seconds")
+
+
+def _why_slow(values: dict[str, Any]) -> WhySlow:
+    return WhySlow(**(values | {name: MappingProxyType(values[name]) for name in _MAPPINGS}))

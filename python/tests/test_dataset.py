@@ -2,6 +2,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 import xarray
@@ -43,6 +44,21 @@ def test_it_is_the_file_in_names_values_and_attributes(which: str, request: pyte
             xarray.testing.assert_identical(root[name].variable.load(), data[name].variable)
         assert root.attrs.items() <= data.attrs.items()
     xarray.testing.assert_identical(cf.open(path).to_xarray(), data)
+
+
+def test_every_dataset_of_the_file_says_what_it_is(stiff: cf.Result, tmp_path: Path):
+    path = tmp_path / "out.h5"
+    stiff.save(path)
+    seen = {}
+
+    def look(name: str, item: h5py.HLObject) -> None:
+        if isinstance(item, h5py.Dataset):
+            seen[name] = (item.attrs.get("long_name"), item.attrs.get("units"))
+
+    with h5py.File(path) as file:
+        file.visititems(look)
+    assert len(seen) > 30 and all(long_name and units for long_name, units in seen.values()), seen
+    assert (seen["frame"], seen["steps/step"]) == (("saved state", "1"), ("accepted step", "1"))
 
 
 def test_it_has_named_dimensions_coordinates_units_and_provenance(stiff: cf.Result):

@@ -1,4 +1,6 @@
+import copy
 import inspect
+import pickle
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -23,6 +25,14 @@ def test_shares_add_up_and_name_every_term(membrane: cf.Result):
         assert membrane.stats[f"seconds_{name}"] == seconds
     stats = membrane.stats
     assert why.krylov_iterations_per_solve == stats["krylov_iterations"] / stats["newton_iterations"]
+
+
+def test_it_can_be_pickled_and_copied(membrane: cf.Result):
+    why = membrane.why_slow()
+    for same in (pickle.loads(pickle.dumps(why)), copy.deepcopy(why)):
+        assert same == why and str(same) == str(why)
+        with pytest.raises(TypeError):
+            same.seconds["start"] = 0.0
 
 
 def test_the_docstring_says_what_every_second_was_spent_on(membrane: cf.Result):

@@ -76,12 +76,12 @@ class Parametric(Table):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Points(Table):
-    """A closed curve through points, the first not repeated at the end."""
+    """A closed curve through points; the first may be repeated at the end, where it does not count."""
 
     shape: ClassVar[str] = "points"
 
     points: Rows | None = None
-    """The points in order, shape (n, 2), n from 8 to 16384; or else ``file``."""
+    """The points in order, shape (n, 2), n from 8 to 16384, and perhaps the first again; or else ``file``."""
     file: str | os.PathLike[str] | None = None
     """File of the points, one on each line, x and y. A checked scene holds the points themselves."""
     turning_number: int = default("curve", "turning_number", "points")

@@ -6,6 +6,7 @@ use hdf5_image::{attach_scale, set_scale};
 use hdf5_metno::types::VarLenUnicode;
 use hdf5_metno::{Dataset, Extent, Group, H5Type, Location, SimpleExtents};
 
+use super::meanings;
 use crate::output::StorageError;
 
 /// Chunks hold about this many values: one read of 512 kB, yet a single frame is cheap.
@@ -41,6 +42,7 @@ pub(super) fn axis(group: &Group, name: &str, length: usize) -> Result<Axis, Sto
     let scale = empty::<u8>(group, name, &[length]).map_err(building(name))?;
     let label = format!("This is a netCDF dimension but not a netCDF variable.{length:10}");
     set_scale(&scale, &label).map_err(building(name))?;
+    describe(&scale, &meanings::axis(name))?;
     Ok(Axis { scale, length })
 }
 
@@ -50,6 +52,7 @@ pub(super) fn labelled_axis(group: &Group, name: &str, labels: &[&str]) -> Resul
     let labels: Vec<_> = labels.iter().map(|label| text(label)).collect();
     scale.write_raw(&labels).map_err(building(name))?;
     set_scale(&scale, name).map_err(building(name))?;
+    describe(&scale, &meanings::axis(name))?;
     Ok(Axis { scale, length: labels.len() })
 }
 
@@ -69,8 +72,12 @@ pub(super) fn dataset<T: H5Type>(
     for (number, axis) in (0..).zip(axes) {
         attach_scale(&dataset, &axis.scale, number).map_err(building(name))?;
     }
-    write_text(&dataset, "long_name", &meaning.long_name)?;
-    write_text(&dataset, "units", meaning.units)
+    describe(&dataset, meaning)
+}
+
+fn describe(dataset: &Dataset, meaning: &Meaning) -> Result<(), StorageError> {
+    write_text(dataset, "long_name", &meaning.long_name)?;
+    write_text(dataset, "units", meaning.units)
 }
 
 /// Writes a text attribute, UTF-8 of variable length, which h5py gives as `str`.

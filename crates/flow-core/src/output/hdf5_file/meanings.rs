@@ -1,6 +1,18 @@
-//! Long names and units of what a scene names: its terms, its densities, and the fields that it asks for.
+//! Long names and units of dimensions and of what a scene names: its terms, its densities, and the fields that it asks for.
 
 use super::dataset::Meaning;
+
+/// A dimension.
+pub(super) fn axis(name: &str) -> Meaning {
+    let long_name = match name {
+        "frame" => "saved state",
+        "node" => "node of the curve",
+        "component" => "component of a vector",
+        "step" => "accepted step",
+        other => other,
+    };
+    Meaning::new(long_name.to_owned(), "1")
+}
 
 /// Energy of a term.
 pub(super) fn energy_term(name: &str) -> Meaning {

@@ -61,10 +61,9 @@ pub enum Shape {
         /// Second coordinate, an expression of `phi`.
         y: Formula,
     },
-    /// A closed curve through points, the first not repeated at the end.
+    /// A closed curve through points; the first may be repeated at the end, where it does not count.
     Points {
-        /// The points in order, 8 to 16384 of them; read from `file` if the scene names one.
-        // One more, since a list may repeat its first point to close the curve.
+        /// The points in order, 8 to 16384 of them, and perhaps the first again; read from `file` if the scene names one.
         #[schemars(transform = Entries(MIN_POINTS, MAX_POINTS + 1))]
         points: Vec<[f64; 2]>,
     },
