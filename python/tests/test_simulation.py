@@ -123,6 +123,14 @@ def test_multiples_of_an_interval_are_times_but_for_rounding(interval: float, pi
     assert simulation.result().steps["size"].min() > 1e-9 * interval
 
 
+def test_a_time_within_rounding_of_the_present_one_takes_no_step():
+    simulation = cf.Simulation(cf.Scene.shipped("three_fold"))
+    for until in (1e-310, 0.1, 0.3, 0.1 * 3, math.nextafter(0.3, 1), 0.3 * (1 + 1e-15), 0.4):
+        assert simulation.run(until=until), simulation.status
+    assert simulation.time == 0.4
+    assert simulation.result().steps["size"].min() > 1e-14
+
+
 def test_callbacks_that_are_due_with_one_that_stops_are_called(scene: cf.Scene):
     simulation = cf.Simulation(scene)
     seen: list[float] = []
