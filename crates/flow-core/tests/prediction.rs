@@ -1,7 +1,7 @@
 //! What `curveflow check` foretells, held against the runs themselves.
 
 use flow_core::run::scene::{Frames, Nodes, OutputField, Spacing};
-use flow_core::run::{Prediction, Quiet, Record, Scene, StopReason, predict, run};
+use flow_core::run::{Prediction, Quiet, Record, Scene, SetupError, StopReason, predict, run};
 
 fn shipped(name: &str) -> Scene {
     let (_, text) = Scene::shipped().iter().find(|(shipped, _)| *shipped == name).expect("shipped");
@@ -70,6 +70,49 @@ fn a_trial_does_without_the_frames_that_the_scene_asks_for() {
     assert_near(many.steps, few.steps, 1.2, "steps");
     assert!(many.memory_bytes > 100.0 * few.memory_bytes && many.output_seconds > 30.0 * few.output_seconds);
     assert!(many.memory_bytes > 2.5 * many.file_bytes, "frames are held, and the file before it is written");
+}
+
+/// Of a scene with other values.
+fn memory_of(name: &str, values: &[(&str, &str)]) -> Prediction {
+    let (_, text) = Scene::shipped().iter().find(|(shipped, _)| *shipped == name).expect("shipped");
+    let values: Vec<_> = values.iter().map(|(key, value)| ((*key).into(), (*value).into())).collect();
+    predict(&Scene::parse_with(text, name, &values).expect("valid")).expect("an initial state")
+}
+
+#[test]
+fn what_grows_with_the_square_of_the_nodes_is_foretold() {
+    // The kernel of the scene reaches over the whole curve: two numbers for each pair of nodes.
+    let adhesion =
+        |nodes| memory_of("adhesion", &[("accuracy.nodes", nodes), ("output.frames", "2")]).memory_bytes;
+    let (few, many) = (adhesion("512"), adhesion("2048"));
+    assert_near(many - few, 8.0 * (2048.0 * 2048.0 - 512.0 * 512.0), 1.2, "bytes of pairs");
+    let narrow = [("accuracy.nodes", "2048"), ("output.frames", "2"), ("energy.adhesion.cutoff", "0.1")];
+    let narrow = memory_of("adhesion", &narrow).memory_bytes;
+    assert!(narrow < few + 0.3 * (many - few), "{narrow} bytes of few pairs, {many} of all");
+
+    let solver = |solver| {
+        let values = [("accuracy.nodes", "800"), ("accuracy.linear_solver", solver), ("time.end", "1e-9")];
+        memory_of("circle", &values)
+    };
+    let (auto, dense) = (solver("'auto'"), solver("'dense'"));
+    let matrix = 8.0 * (dense.unknowns as f64).powi(2);
+    assert!((dense.memory_bytes - auto.memory_bytes - matrix).abs() < 1.0, "{dense:?}");
+}
+
+#[test]
+fn frames_that_become_too_many_on_more_nodes_are_foretold() {
+    let changes = [
+        ("accuracy.nodes", "'auto'"),
+        ("energy.agents.epsilon", "0.005"),
+        ("energy.agents.delta", "0.02"),
+        ("output.frames", "100000"),
+    ];
+    let prediction = memory_of("three_fold", &changes);
+    let error = prediction.check_frames().expect_err("too many on the most nodes");
+    let SetupError::TooMuchOutput { frames, nodes, bytes, limit } = error else { panic!("{error}") };
+    assert_eq!((frames, nodes), (100_001, prediction.most_nodes));
+    assert!(bytes > limit && prediction.nodes < nodes);
+    assert!(predict(&shipped("three_fold")).expect("an initial state").check_frames().is_ok());
 }
 
 #[test]

@@ -5,11 +5,15 @@ use std::time::Instant;
 use flow_core::run::scene::Nodes;
 use flow_core::run::{Prediction, Scene, StopReason, Trial, predict};
 
+use super::room;
 use super::scene_args::SceneArgs;
 use crate::error::CliError;
 use crate::print;
 
 /// Validate a scene and predict nodes, memory and cost; writes nothing.
+///
+/// A trial run tells, of about a second, or four where steps are slow, and of two steps in any case: with adhesion on 16384 nodes these
+/// take TRIAL seconds. Warnings say what does not fit into the memory of this machine or into what a run may hold.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     #[command(flatten)]
@@ -49,6 +53,7 @@ fn json(prediction: &Prediction) -> serde_json::Value {
         "integration_seconds": integration_seconds,
         "output_seconds": output_seconds,
         "seconds": integration_seconds + output_seconds,
+        "warnings": room::warnings(prediction),
         "trial": {
             "tolerance": trial.tolerance,
             "time": trial.time,
@@ -81,9 +86,11 @@ fn table(prediction: &Prediction, scene: &Scene) -> String {
         }
         _ => String::new(),
     };
+    let warnings: String =
+        room::warnings(prediction).iter().map(|warning| format!("\nwarning   {warning}")).collect();
     format!(
         "the scene is valid\nnodes     {nodes}\nunknowns  {unknowns}\nmemory    about {} MB\nfile      at most {} MB\nsteps     \
-         about {}, {until}{hedge}\ntime      about {} s, {} s of it for the steps, {} s for frames and file",
+         about {}, {until}{hedge}\ntime      about {} s, {} s of it for the steps, {} s for frames and file{warnings}",
         brief(memory_bytes / 1e6),
         brief(file_bytes / 1e6),
         brief(steps),

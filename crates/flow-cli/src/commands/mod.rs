@@ -5,6 +5,7 @@ mod conduct;
 pub mod info;
 pub mod plot;
 pub mod resume;
+mod room;
 pub mod run;
 mod scene_args;
 pub mod scenes;

@@ -146,6 +146,11 @@ pub trait EnergyTerm: Debug + Send + Sync {
     ) {
     }
 
+    /// Bytes that the term keeps for second derivatives beside a few numbers for each node: as many for each pair of nodes, for example.
+    fn kept_bytes(&self) -> f64 {
+        0.0
+    }
+
     /// What is wrong with the data that the term was evaluated on last, if anything: asked for at the start and after each step, of
     /// the pointwise fields. A run ends with it. Terms from outside have [`TermFault::OutOfRange`].
     fn fault(&self, _fields: Fields<'_>) -> Option<TermFault> {

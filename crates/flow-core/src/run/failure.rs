@@ -22,6 +22,9 @@ pub enum Failure {
     /// The next gauge cannot be built on the state at hand.
     #[error("at t = {time:.6e}: {error}")]
     Gauge { time: f64, error: SetupError },
+    /// What the scene asks for does not fit into memory on the nodes that the run has come to.
+    #[error("at t = {time:.6e}: {error}")]
+    Limit { time: f64, error: SetupError },
     /// The state at hand means nothing in the next gauge.
     #[error("at t = {time:.6e}: the state is not finite in the next gauge")]
     NotFiniteInGauge { time: f64 },

@@ -5,7 +5,7 @@ use super::setup_error::SetupError;
 use crate::geometry::Layout;
 
 /// Largest memory of all frames, in bytes.
-const MOST_FRAME_BYTES: f64 = 16e9;
+pub(super) const MOST_FRAME_BYTES: f64 = 16e9;
 /// Most rows of a dense matrix: 128 MB, and minutes for each factorisation.
 const MOST_DENSE: usize = 4096;
 /// Curvature, metric, velocity and two coordinates.
@@ -15,9 +15,9 @@ const FILE_BYTES: f64 = 48e3;
 const NUMBERS_BYTES: f64 = 400.0;
 const STEP_BYTES: f64 = 64.0;
 
-/// Bytes of all frames of `scene`, with `extra` fields besides those that every frame holds.
-pub(super) fn frame_bytes(scene: &Scene, layout: Layout, extra: usize) -> f64 {
-    8.0 * frames(scene) as f64 * (layout.nodes() * (FIELDS + layout.densities() + extra)) as f64
+/// Bytes of `frames` frames on `layout`, with `extra` fields besides those that every frame holds.
+pub(super) fn frame_bytes(frames: usize, layout: Layout, extra: usize) -> f64 {
+    8.0 * frames as f64 * (layout.nodes() * (FIELDS + layout.densities() + extra)) as f64
 }
 
 /// Bytes of the result file of `scene` whose frames take `frame_bytes`, after `steps` steps.
@@ -25,18 +25,46 @@ pub(super) fn file_bytes(scene: &Scene, frame_bytes: f64, steps: f64) -> f64 {
     frame_bytes + NUMBERS_BYTES * frames(scene) as f64 + STEP_BYTES * steps + FILE_BYTES
 }
 
+/// Bytes of the matrix of a dense solver on `layout`; none for the others.
+pub(super) fn matrix_bytes(scene: &Scene, layout: Layout) -> f64 {
+    let dense = scene.accuracy.linear_solver == LinearSolver::Dense;
+    if dense { 8.0 * (layout.len() as f64).powi(2) } else { 0.0 }
+}
+
 /// Checks what `scene` asks for on the nodes of `layout`.
 ///
 /// # Errors
 /// [`SetupError::TooMuchOutput`] or [`SetupError::TooLargeForDense`].
 pub(super) fn check(scene: &Scene, layout: Layout, extra: usize) -> Result<(), SetupError> {
+    check_solver(scene, layout)?;
+    check_frames(frames(scene), layout, extra, MOST_FRAME_BYTES)
+}
+
+/// Checks that the solver of `scene` has room for the unknowns of `layout`.
+///
+/// # Errors
+/// [`SetupError::TooLargeForDense`].
+pub(super) fn check_solver(scene: &Scene, layout: Layout) -> Result<(), SetupError> {
     let unknowns = layout.len();
     if scene.accuracy.linear_solver == LinearSolver::Dense && unknowns > MOST_DENSE {
         return Err(SetupError::TooLargeForDense { unknowns, most: MOST_DENSE });
     }
-    let (bytes, limit) = (frame_bytes(scene, layout, extra), MOST_FRAME_BYTES);
+    Ok(())
+}
+
+/// Checks that `frames` frames on `layout` take no more than `limit` bytes.
+///
+/// # Errors
+/// [`SetupError::TooMuchOutput`].
+pub(super) fn check_frames(
+    frames: usize,
+    layout: Layout,
+    extra: usize,
+    limit: f64,
+) -> Result<(), SetupError> {
+    let bytes = frame_bytes(frames, layout, extra);
     if bytes > limit {
-        return Err(SetupError::TooMuchOutput { frames: frames(scene), nodes: layout.nodes(), bytes, limit });
+        return Err(SetupError::TooMuchOutput { frames, nodes: layout.nodes(), bytes, limit });
     }
     Ok(())
 }

@@ -2,11 +2,12 @@
 
 use std::time::Instant;
 
-use super::limits::{file_bytes, frame_bytes, frames};
+use super::limits::{MOST_FRAME_BYTES, file_bytes, frame_bytes, frames, matrix_bytes};
 use super::observer::Quiet;
 use super::record::{Record, StopReason};
 use super::resolution::{MOST_NODES, fronts, size_above};
 use super::scene::{Frames, Nodes, Scene, Spacing};
+use super::setup::Setup;
 use super::setup_error::SetupError;
 use super::simulation::Simulation;
 use crate::flow::MetricRole;
@@ -21,8 +22,12 @@ pub struct Prediction {
     pub most_nodes: usize,
     /// Length of the state vector at the start.
     pub unknowns: usize,
-    /// Memory of the process: program, solver, all frames, and the file before it is written.
+    /// Memory of the process: program, solver, pairs of nodes under adhesion, all frames, and the file before it is written.
     pub memory_bytes: f64,
+    /// Number of frames if every one is reached, and their bytes on the most nodes.
+    pub frames: usize,
+    /// See [`Prediction::frames`].
+    pub frame_bytes: f64,
     /// Size of the result file if every frame is reached.
     pub file_bytes: f64,
     /// Number of steps until the run stops.
@@ -33,6 +38,19 @@ pub struct Prediction {
     pub output_seconds: f64,
     /// What this was measured on.
     pub trial: Trial,
+}
+
+impl Prediction {
+    /// Whether a run may have all its frames on the most nodes. They are asked for at the start on its first nodes, and a run that
+    /// grows ends where they become too many.
+    ///
+    /// # Errors
+    /// [`SetupError::TooMuchOutput`], with which such a run would end.
+    pub fn check_frames(&self) -> Result<(), SetupError> {
+        let Self { frames, most_nodes: nodes, frame_bytes: bytes, .. } = *self;
+        let limit = MOST_FRAME_BYTES;
+        if bytes > limit { Err(SetupError::TooMuchOutput { frames, nodes, bytes, limit }) } else { Ok(()) }
+    }
 }
 
 /// A run of the scene at a loose tolerance with few frames, for a second, or for a few if its steps are dear.
@@ -49,7 +67,7 @@ pub struct Trial {
 /// Tolerance of the trial, unless the scene asks for a looser one.
 const TRIAL_TOLERANCE: f64 = 1e-2;
 const TRIAL_FRAMES: usize = 8;
-/// A trial is given up after so many seconds of integration, after so many times that if it has taken a few steps only, and not before two.
+/// A trial is given up after so many seconds, after so many times that if it has taken a few steps only, and not before two.
 const TRIAL_SECONDS: f64 = 1.0;
 const FOR_FEW_STEPS: f64 = 4.0;
 const FEW_STEPS: usize = 12;
@@ -72,8 +90,8 @@ const FILE_BYTES_PER_SECOND: f64 = 300e6;
 /// [`SetupError`] if the scene makes no initial state.
 pub fn predict(scene: &Scene) -> Result<Prediction, SetupError> {
     let scene = &scene.clone().checked()?;
-    let layout = Simulation::new(scene)?.layout();
-    let (record, step_ends) = run_trial(&trial_scene(scene))?;
+    let layout = start(scene)?;
+    let Run { record, step_ends, kept_per_square } = run_trial(&trial_scene(scene))?;
     let trial = Trial {
         tolerance: trial_tolerance(scene),
         time: record.steps.time.last().copied().unwrap_or(0.0),
@@ -88,7 +106,8 @@ pub fn predict(scene: &Scene) -> Result<Prediction, SetupError> {
     let finer = tighter.powf(STEPS_POWER);
 
     let most_layout = Layout::new(most_nodes, layout.densities());
-    let frame_bytes = frame_bytes(scene, most_layout, record.fields.len());
+    let frames = frames(scene);
+    let frame_bytes = frame_bytes(frames, most_layout, record.fields.len());
     let file_bytes = file_bytes(scene, frame_bytes, steps * finer);
     let seconds_per_node =
         record.seconds.frames / (record.frames.len() * record.frames[0].curvature.len()) as f64;
@@ -98,14 +117,26 @@ pub fn predict(scene: &Scene) -> Result<Prediction, SetupError> {
         unknowns: layout.len(),
         memory_bytes: PROGRAM_BYTES
             + 8.0 * SOLVER_VECTORS * most_layout.len() as f64
+            + kept_per_square * (most_nodes as f64).powi(2)
+            + matrix_bytes(scene, most_layout)
             + COPIES_OF_FRAMES * frame_bytes,
+        frames,
+        frame_bytes,
         file_bytes,
         steps: steps * finer,
         integration_seconds: seconds * finer,
-        output_seconds: seconds_per_node * (frames(scene) * most_nodes) as f64
-            + file_bytes / FILE_BYTES_PER_SECOND,
+        output_seconds: seconds_per_node * (frames * most_nodes) as f64 + file_bytes / FILE_BYTES_PER_SECOND,
         trial,
     })
+}
+
+/// Shape of the state at the start of `scene`. What else may be wrong with one whose nodes are given its trial finds out: they are the
+/// same there, and to evaluate many of them may take seconds.
+fn start(scene: &Scene) -> Result<Layout, SetupError> {
+    match scene.accuracy.nodes {
+        Nodes::Count(_) => Ok(Setup::new(scene)?.membrane.layout()),
+        Nodes::Auto => Ok(Simulation::new(scene)?.layout()),
+    }
 }
 
 fn trial_tolerance(scene: &Scene) -> f64 {
@@ -120,18 +151,29 @@ fn trial_scene(scene: &Scene) -> Scene {
     trial.renewed()
 }
 
-/// The record of a trial, and the seconds of integration until the end of each step.
-fn run_trial(scene: &Scene) -> Result<(Record, Vec<f64>), SetupError> {
+/// What a trial has left.
+struct Run {
+    record: Record,
+    /// Seconds of integration until the end of each step.
+    step_ends: Vec<f64>,
+    /// Most bytes that the terms of the energy kept, per square of the number of nodes.
+    kept_per_square: f64,
+}
+
+fn run_trial(scene: &Scene) -> Result<Run, SetupError> {
+    let start = Instant::now();
     let mut simulation = Simulation::new(scene)?;
-    let (mut step_ends, mut seconds) = (Vec::new(), 0.0);
+    let (mut step_ends, mut seconds, mut kept_per_square) = (Vec::new(), 0.0, 0.0_f64);
     let mut under_way = true;
-    while under_way && seconds < patience(step_ends.len()) {
+    while under_way && start.elapsed().as_secs_f64() < patience(step_ends.len()) {
         let clock = Instant::now();
         under_way = simulation.step(&mut Quiet);
         seconds += clock.elapsed().as_secs_f64();
         step_ends.push(seconds);
+        let nodes = simulation.layout().nodes() as f64;
+        kept_per_square = kept_per_square.max(simulation.kept_bytes() / nodes.powi(2));
     }
-    Ok((simulation.into_record(), step_ends))
+    Ok(Run { record: simulation.into_record(), step_ends, kept_per_square })
 }
 
 /// Seconds of a trial that has taken so many steps: a few more for a few steps that tell something.

@@ -3,7 +3,7 @@
 mod pairs;
 
 use super::kernel::Kernel;
-use super::{EnergyTerm, Order, ShapeFields};
+use super::{EnergyTerm, Fields, Order, ShapeFields, TermFault};
 use crate::expression::{Expression, ExpressionError};
 use crate::geometry::CellList;
 use crate::geometry::vectors::dot;
@@ -29,7 +29,13 @@ pub struct Adhesion {
     /// Σⱼ wᵢwⱼG, j ≠ i, and its motion, at the sorted nodes, where the weights move; δw/w there.
     shares: Vec<f64>,
     weight_motion: Vec<f64>,
+    /// Pairs that are allowed, and those met last if they are more.
+    most_pairs: usize,
+    too_many: Option<usize>,
 }
+
+/// Most pairs whose derivatives are kept, 16 bytes for each, 24 where weights move: 2.1 or 3.2 GB. All of 16384 nodes are fewer.
+const MOST_PAIRS: usize = 1 << 27;
 
 /// What the second derivative needs.
 #[derive(Clone, Debug)]
@@ -92,6 +98,8 @@ impl Adhesion {
             weight: Vec::with_capacity(nodes),
             shares: field(),
             weight_motion: field(),
+            most_pairs: MOST_PAIRS,
+            too_many: None,
         })
     }
 
@@ -115,9 +123,26 @@ impl EnergyTerm for Adhesion {
         self.kernel.largest_spacing(length, error)
     }
 
+    fn kept_bytes(&self) -> f64 {
+        let Frozen { first, second, value, .. } = &self.frozen;
+        (size_of::<f64>() * (first.len() + second.len() + value.len())) as f64
+    }
+
+    fn fault(&self, _: Fields<'_>) -> Option<TermFault> {
+        let (nodes, most) = (self.shares.len(), self.most_pairs);
+        self.too_many.map(|pairs| TermFault::TooManyPairs { nodes, pairs, most })
+    }
+
     fn add_shape_energy(&mut self, shape: &ShapeFields, order: Order, out: &mut ShapeFields) -> f64 {
         let (nodes, length) = (self.shares.len() as f64, shape.length);
         self.cells.sort(shape.positions(), self.kernel.cut_off());
+        self.too_many = self.pairs_beyond(self.most_pairs);
+        if self.too_many.is_some() {
+            if order >= Order::Hessian {
+                self.frozen.energy = f64::NAN; // there is no derivative
+            }
+            return f64::NAN;
+        }
         if order >= Order::Hessian {
             self.frozen.first.clear();
             self.frozen.second.clear();
@@ -162,6 +187,10 @@ impl EnergyTerm for Adhesion {
 
     fn add_shape_hessian_product(&mut self, at: &ShapeFields, motion: &ShapeFields, out: &mut ShapeFields) {
         let (nodes, length) = (self.shares.len() as f64, at.length);
+        if self.frozen.energy.is_nan() {
+            out.length = f64::NAN;
+            return;
+        }
         for (place, &node) in self.frozen.cells.order().iter().enumerate() {
             for axis in 0..2 {
                 self.motion[axis][place] = motion.position[axis][node];
@@ -215,6 +244,30 @@ mod tests {
             shape.position[1][i] = 0.4 * s.sin() + 0.2 * (3.0 * s).cos();
         }
         shape
+    }
+
+    #[test]
+    fn more_pairs_than_allowed_are_a_fault_and_nothing_is_kept_of_them() {
+        let kernel = Expression::parse("exp(-q)", &["q"]).unwrap();
+        let (nodes, shape) = (64, shape(64));
+        let mut out = ShapeFields::new(nodes);
+        for (cut_off, most) in [(50.0, 64 * 63 / 2), (0.2, 1000)] {
+            let mut term =
+                Adhesion { most_pairs: most, ..Adhesion::new(&kernel, CutOff::At(cut_off), nodes).unwrap() };
+            assert!(term.add_shape_energy(&shape, Order::Hessian, &mut out).is_finite());
+            let pairs = term.frozen.first.len();
+            assert_eq!(term.kept_bytes(), 16.0 * pairs as f64);
+            assert!(pairs <= most && term.too_many.is_none(), "{pairs}");
+
+            let mut term = Adhesion {
+                most_pairs: pairs - 1,
+                ..Adhesion::new(&kernel, CutOff::At(cut_off), nodes).unwrap()
+            };
+            assert!(term.add_shape_energy(&shape, Order::Hessian, &mut out).is_nan());
+            assert_eq!((term.too_many, term.kept_bytes()), (Some(pairs), 0.0));
+            term.add_shape_hessian_product(&shape, &ShapeFields::new(nodes), &mut out);
+            assert!(out.length.is_nan(), "no derivative");
+        }
     }
 
     /// The kernel jumps at every cut-off here: a pair too much or too few would show.

@@ -12,6 +12,17 @@ use crate::geometry::vectors;
 pub(super) const PAIRS_TOGETHER: usize = 1024;
 
 impl Adhesion {
+    /// The pairs that the sorted cells hold, if they are more than `most`.
+    pub(super) fn pairs_beyond(&self, most: usize) -> Option<usize> {
+        let nodes = self.shares.len();
+        if nodes * nodes.saturating_sub(1) / 2 <= most {
+            return None; // not even all of them
+        }
+        let later =
+            |place| self.cells.later_neighbours(place).iter().map(ExactSizeIterator::len).sum::<usize>();
+        Some((0..nodes).map(later).sum()).filter(|pairs| *pairs > most)
+    }
+
     /// Σ_{i<j} G, with Σⱼ G′(γᵢ − γⱼ) in `sums`, and Σⱼ G in `shares` if the weights move.
     ///
     /// The kernel is evaluated for the pairs of many nodes together: those of one node are fewer than the lanes of a block.

@@ -103,6 +103,12 @@ impl EnergySum {
         self.terms.iter().map(|term| term.name())
     }
 
+    /// Bytes that the terms keep for second derivatives beside a few numbers for each node.
+    #[must_use]
+    pub fn kept_bytes(&self) -> f64 {
+        self.terms.iter().map(|term| term.kept_bytes()).sum()
+    }
+
     /// What a term finds wrong with the state evaluated last, whose fields are `at`.
     #[must_use]
     pub fn fault(&self, at: &CurveFields) -> Option<TermFault> {

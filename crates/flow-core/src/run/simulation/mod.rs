@@ -4,6 +4,7 @@ mod clocks;
 mod recording;
 mod remap;
 mod resume;
+mod saving;
 mod start;
 mod switch;
 mod until;
@@ -21,7 +22,7 @@ use crate::run::adaptation::Adaptation;
 use crate::run::diagnostics::Diagnostics;
 use crate::run::equilibrium::Equilibrium;
 use crate::run::failure::Failure;
-use crate::run::frames::{Start, frame};
+use crate::run::frames::Start;
 use crate::run::gauges::Gauges;
 use crate::run::membrane::Membrane;
 use crate::run::mesh::Mesh;
@@ -78,6 +79,9 @@ pub struct Simulation {
     frame_times: Vec<f64>,
     /// Frames saved so far, the initial one and those at [`Self::frame_times`].
     scheduled_frames: usize,
+    /// The most nodes of a frame so far, on which all frames end, and the bytes that they may take there.
+    most_frame_nodes: usize,
+    most_frame_bytes: f64,
     scratch: Vec<f64>,
     /// Gap of the last accepted state before its projection.
     closure_defect: f64,
@@ -136,13 +140,19 @@ impl Simulation {
         observer: &mut dyn Observer,
     ) {
         match (report, fault) {
+            // The steps shrank before a state that has no energy.
+            (Err(_), Some(fault @ TermFault::TooManyPairs { .. })) => {
+                self.fail(Failure::Term { time: self.time(), fault });
+            }
             (Err(error), _) => self.fail(error),
             (Ok(report), fault) => {
                 self.closure_defect = self.membrane.closure_defect();
                 self.log(&report);
-                self.save_frames();
+                let room = self.save_frames();
                 let asked_to_stop = self.tell(&report, observer).is_break();
-                if let Some(fault) = fault {
+                if let Err(error) = room {
+                    self.fail(Failure::Limit { time: report.time, error });
+                } else if let Some(fault) = fault {
                     self.fail(Failure::Term { time: report.time, fault });
                 } else if self.in_contact() {
                     self.stop(StopReason::Contact);
@@ -199,31 +209,6 @@ impl Simulation {
         steps.rejections.push(report.rejections);
     }
 
-    fn save_frames(&mut self) {
-        let stepper = self.integration.stepper();
-        let now = stepper.time();
-        while let Some(time) = self.next_frame().filter(|time| *time < now) {
-            let clock = Instant::now();
-            let integrals = self.integration.stepper().interpolate(time, &mut self.scratch);
-            self.record.frames.push(frame(
-                &mut self.membrane,
-                &mut self.diagnostics,
-                time,
-                &mut self.scratch,
-                integrals,
-                &self.start,
-                None,
-            ));
-            self.scheduled_frames += 1;
-            self.clocks.frames += clock.elapsed().as_secs_f64();
-        }
-    }
-
-    /// Time of the next frame of the schedule.
-    fn next_frame(&self) -> Option<f64> {
-        self.frame_times.get(self.scheduled_frames - 1).copied()
-    }
-
     /// Shape of the nodal state.
     #[must_use]
     pub fn layout(&self) -> Layout {
@@ -235,6 +220,11 @@ impl Simulation {
         let mut nodal = vec![0.0; self.membrane.layout().len()];
         self.membrane.flow().decode(self.integration.stepper().state(), &mut nodal);
         nodal
+    }
+
+    /// Bytes that the terms of the energy keep for second derivatives.
+    pub(super) fn kept_bytes(&mut self) -> f64 {
+        self.membrane.flow().energy_terms().kept_bytes()
     }
 
     /// Length |Γ| of the curve.

@@ -3,10 +3,14 @@
 use std::time::Instant;
 
 use super::Simulation;
+use crate::energies::TermFault;
 use crate::integrator::{Adaptive, AdaptiveOptions, Factorisation, Finish, Multistep, Problem, Stepper};
 use crate::run::adaptation::{Look, Plan, Way};
+use crate::run::failure::Failure;
 use crate::run::mesh::Mesh;
 use crate::run::resolution::unresolved;
+use crate::run::setup_error::SetupError;
+use crate::run::{limits, setup};
 
 /// Steps between looks at nodes that are fixed.
 const FIXED_LOOKS: u64 = 8;
@@ -26,11 +30,14 @@ impl Simulation {
         let (served, failure) = match adaptation.look(&mut self.membrane, (time, state), &self.mesh, age) {
             Look::Serve => (true, None),
             Look::Change(plan) => {
-                let fewer = plan.mesh.nodes < self.mesh.nodes;
-                (self.remap(plan, time, energy).is_some() || fewer, None)
+                let (fewer, more) = (plan.mesh.nodes < self.mesh.nodes, plan.mesh.nodes > self.mesh.nodes);
+                match self.remap(plan, time, energy) {
+                    Err(Some(failure)) if more => (false, Some(failure)),
+                    taken => (taken.is_ok() || fewer, None),
+                }
             }
             Look::Unresolved => (false, None),
-            Look::Hopeless(error) => (false, Some(error)),
+            Look::Hopeless(error) => (false, Some(error.into())),
         };
         self.record.counters.unresolved_steps += u64::from(!served);
         let seconds = clock.elapsed().as_secs_f64();
@@ -53,9 +60,13 @@ impl Simulation {
         }
     }
 
-    /// Carries the past states over to the nodes of `plan` and goes on with the same order and step size; none if a state cannot
-    /// be had there, or fewer nodes change the energy by more than the tolerance.
-    fn remap(&mut self, mut plan: Plan, time: f64, energy: f64) -> Option<()> {
+    /// Carries the past states over to the nodes of `plan` and goes on with the same order and step size.
+    ///
+    /// # Errors
+    /// If a state cannot be had there, or fewer nodes change the energy by more than the tolerance; with the failure if they leave no
+    /// room.
+    fn remap(&mut self, mut plan: Plan, time: f64, energy: f64) -> Result<(), Option<Failure>> {
+        self.check_plan(&plan).map_err(|error| Some(Failure::Limit { time, error }))?;
         let turning_number = self.membrane.turning_number();
         let built = match &plan.way {
             Way::Regraded(grading, _) => {
@@ -63,7 +74,7 @@ impl Simulation {
             }
             Way::SameParameters => self.gauges.build(&plan.mesh, turning_number),
         };
-        let (mut membrane, diagnostics) = built.ok()?;
+        let (mut membrane, diagnostics) = built.map_err(|_| None)?;
         let mut memory = self.integration.stepper().memory();
         match &mut plan.way {
             Way::SameParameters => {
@@ -84,18 +95,20 @@ impl Simulation {
                 memory = memory.implicit();
                 let flow = self.membrane.flow();
                 for (_, state) in &mut memory.points {
-                    *state = way.apply(flow, state).ok()?;
+                    *state = way.apply(flow, state).map_err(|_| None)?;
                 }
             }
         }
         membrane.follow(&self.membrane);
         let Finish::Good { energy: new_energy, .. } = membrane.finish(time, &mut memory.points[0].1) else {
-            return None;
+            let too_many =
+                membrane.flow().fault().filter(|fault| matches!(fault, TermFault::TooManyPairs { .. }));
+            return Err(too_many.map(|fault| Failure::Term { time, fault }));
         };
         let error = new_energy - energy;
         let scale = energy.abs().max(ENERGY_FLOOR * (self.start.energy - energy).abs());
         if !resolves_more(&plan, &self.mesh) && error.abs() > self.tolerance * scale {
-            return None;
+            return Err(None);
         }
         memory.factorisation = Factorisation::default();
         let stepper = Multistep::resume(&membrane, memory, self.tolerance);
@@ -108,7 +121,14 @@ impl Simulation {
         self.scratch = vec![0.0; self.membrane.size()];
         self.mesh = plan.mesh;
         self.remapped_at = counters.steps;
-        Some(())
+        Ok(())
+    }
+
+    /// Checks that there is room for the run on the nodes of `plan`.
+    fn check_plan(&self, plan: &Plan) -> Result<(), SetupError> {
+        let layout = setup::layout(self.gauges.scene(), plan.mesh.nodes);
+        limits::check_solver(self.gauges.scene(), layout)?;
+        self.check_room(1, layout)
     }
 }
 

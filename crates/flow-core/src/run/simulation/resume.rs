@@ -209,6 +209,8 @@ impl Simulation {
         let integration = Adaptive::new(stepper, options, memory.energy, memory.counters);
         simulation.integration = integration.watched(memory.rest);
         simulation.record.counters = memory.counters;
+        let nodes = frames.iter().map(|frame| frame.curvature.len()).max();
+        simulation.most_frame_nodes = nodes.unwrap_or_default();
         simulation.record.frames = frames;
         simulation.record.steps = steps;
         simulation.start = memory.start;

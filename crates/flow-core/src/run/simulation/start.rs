@@ -11,6 +11,7 @@ use crate::integrator::{
 };
 use crate::run::equilibrium::Equilibrium;
 use crate::run::frames::{Start, frame};
+use crate::run::limits::MOST_FRAME_BYTES;
 use crate::run::membrane::Membrane;
 use crate::run::own_terms::OwnTerms;
 use crate::run::provenance::Provenance;
@@ -102,7 +103,7 @@ impl Simulation {
             energy_tolerance: ENERGY_TOLERANCE_SHARE * scene.accuracy.tolerance,
             doubts_gradients,
         };
-        let rest = rest_tolerance(scene);
+        let (rest, mesh_nodes) = (rest_tolerance(scene), mesh.nodes);
         let frame_times = frame_times(&scene.output, end);
         let record = Record {
             title: scene.title.clone(),
@@ -138,6 +139,8 @@ impl Simulation {
             until: f64::INFINITY,
             frame_times,
             scheduled_frames: 1,
+            most_frame_nodes: mesh_nodes,
+            most_frame_bytes: MOST_FRAME_BYTES,
             scratch: state,
             closure_defect,
             allowed_crossings: scene.flow.stop_on_contact.then_some(allowed_crossings),
