@@ -25,6 +25,7 @@ impl Dense {
     /// # Errors
     /// [`FactorisationError`] if the matrix is singular.
     pub fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> Result<(), FactorisationError> {
+        self.factors = None; // there is room for one matrix
         let mut matrix = DMatrix::identity(self.size, self.size);
         let (mut unit, mut product) = (vec![0.0; self.size], vec![0.0; self.size]);
         for column in 0..self.size {

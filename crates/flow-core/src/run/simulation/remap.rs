@@ -136,3 +136,66 @@ impl Simulation {
 fn resolves_more(plan: &Plan, mesh: &Mesh) -> bool {
     matches!(plan.way, Way::SameParameters) && plan.mesh.nodes > mesh.nodes
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::energies::{EnergyTerm, Fields, LengthJet};
+    use crate::run::{Quiet, Scene};
+
+    /// A term that has no room for more than so many nodes.
+    #[derive(Debug)]
+    struct Crowded {
+        nodes: usize,
+        most: usize,
+    }
+
+    impl EnergyTerm for Crowded {
+        fn name(&self) -> &'static str {
+            "crowded"
+        }
+
+        fn of_length(&self, _: f64) -> LengthJet {
+            let value = if self.nodes > self.most { f64::NAN } else { 0.0 };
+            LengthJet { value, ..LengthJet::default() }
+        }
+
+        fn fault(&self, _: Fields<'_>) -> Option<TermFault> {
+            let Self { nodes, most } = *self;
+            (nodes > most).then_some(TermFault::TooManyPairs {
+                nodes,
+                pairs: nodes * nodes,
+                most: most * most,
+            })
+        }
+    }
+
+    fn scene(changes: &[(&str, &str)]) -> Scene {
+        let (_, text) = Scene::shipped().iter().find(|(name, _)| *name == "three_fold_sharp").unwrap();
+        let changes: Vec<_> = changes.iter().map(|(key, value)| ((*key).into(), (*value).into())).collect();
+        Scene::parse_with(text, "three_fold_sharp", &changes).unwrap()
+    }
+
+    #[test]
+    fn a_run_that_needs_more_nodes_than_a_term_has_room_for_says_so() {
+        let terms = |nodes| vec![Box::new(Crowded { nodes, most: 600 }) as Box<dyn EnergyTerm>];
+        let mut simulation = Simulation::with_terms(&scene(&[]), terms).unwrap();
+        while simulation.step(&mut Quiet) {}
+        let Some(Failure::Term { fault: TermFault::TooManyPairs { nodes, most, .. }, time }) =
+            simulation.failure()
+        else {
+            panic!("{:?}", simulation.failure())
+        };
+        assert!(*nodes > 600 && *most == 600 * 600 && *time > 0.0);
+        assert!(simulation.layout().nodes() <= 600 && simulation.frames().len() > 1);
+    }
+
+    #[test]
+    fn a_dense_matrix_does_not_grow_beyond_its_bound_with_the_nodes() {
+        let simulation = Simulation::new(&scene(&[("accuracy.linear_solver", "'dense'")])).unwrap();
+        let plan = |nodes| Plan { mesh: Mesh { nodes, samples: None }, way: Way::SameParameters };
+        assert!(simulation.check_plan(&plan(1024)).is_ok());
+        let error = simulation.check_plan(&plan(4096)).unwrap_err();
+        assert!(matches!(error, SetupError::TooLargeForDense { .. }), "{error}");
+    }
+}
