@@ -87,8 +87,9 @@ fn table(prediction: &Prediction, scene: &Scene) -> String {
         }
         _ => String::new(),
     };
-    let warnings: String =
-        room::warnings(prediction).iter().map(|warning| format!("\nwarning   {warning}")).collect();
+    let warnings = room::warnings(prediction)
+        .iter()
+        .fold(String::new(), |lines, warning| lines + "\nwarning   " + warning);
     format!(
         "the scene is valid\nnodes     {nodes}\nunknowns  {unknowns}\nmemory    about {} MB\nfile      at most {} MB\nsteps     \
          about {}, {until}{hedge}\ntime      about {} s, {} s of it for the steps, {} s for frames and file{warnings}",

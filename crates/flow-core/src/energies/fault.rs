@@ -29,7 +29,7 @@ pub enum TermFault {
 
 /// The most nodes that have no more than so many pairs.
 pub(super) fn most_nodes(pairs: usize) -> usize {
-    ((8 * pairs + 1).isqrt() + 1) / 2
+    (8 * pairs + 1).isqrt().div_ceil(2)
 }
 
 #[cfg(test)]

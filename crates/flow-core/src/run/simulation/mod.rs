@@ -14,6 +14,7 @@ use std::time::Instant;
 
 use clocks::Clocks;
 pub use resume::{Memory, ResumeError};
+use saving::FrameRoom;
 
 use crate::energies::TermFault;
 use crate::geometry::Layout;
@@ -79,9 +80,7 @@ pub struct Simulation {
     frame_times: Vec<f64>,
     /// Frames saved so far, the initial one and those at [`Self::frame_times`].
     scheduled_frames: usize,
-    /// The most nodes of a frame so far, on which all frames end, and the bytes that they may take there.
-    most_frame_nodes: usize,
-    most_frame_bytes: f64,
+    frame_room: FrameRoom,
     scratch: Vec<f64>,
     /// Gap of the last accepted state before its projection.
     closure_defect: f64,

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Simulation;
 use super::clocks::Clocks;
+use super::saving::FrameRoom;
 use crate::energies::EnergyTerm;
 use crate::integrator::{
     self, Adaptive, AdaptiveOptions, Counters, Multistep, Problem, Rest, Stepper, Stopwatch,
@@ -210,7 +211,7 @@ impl Simulation {
         simulation.integration = integration.watched(memory.rest);
         simulation.record.counters = memory.counters;
         let nodes = frames.iter().map(|frame| frame.curvature.len()).max();
-        simulation.most_frame_nodes = nodes.unwrap_or_default();
+        simulation.frame_room = FrameRoom::new(nodes.unwrap_or_default());
         simulation.record.frames = frames;
         simulation.record.steps = steps;
         simulation.start = memory.start;

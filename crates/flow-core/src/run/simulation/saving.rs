@@ -6,8 +6,24 @@ use super::Simulation;
 use crate::geometry::Layout;
 use crate::integrator::Stepper;
 use crate::run::frames::frame;
-use crate::run::limits::check_frames;
+use crate::run::limits::{MOST_FRAME_BYTES, check_frames};
 use crate::run::setup_error::SetupError;
+
+/// Room for frames.
+#[derive(Debug)]
+pub(super) struct FrameRoom {
+    /// The most nodes of a frame so far, on which all frames end.
+    nodes: usize,
+    /// Bytes that the frames may take there.
+    bytes: f64,
+}
+
+impl FrameRoom {
+    /// That of a run which has frames on `nodes` nodes at most so far.
+    pub fn new(nodes: usize) -> Self {
+        Self { nodes, bytes: MOST_FRAME_BYTES }
+    }
+}
 
 impl Simulation {
     /// Saves the frames up to the time at hand, and says if there is no room for the next one.
@@ -30,7 +46,7 @@ impl Simulation {
                 None,
             ));
             self.scheduled_frames += 1;
-            self.most_frame_nodes = self.most_frame_nodes.max(self.layout().nodes());
+            self.frame_room.nodes = self.frame_room.nodes.max(self.layout().nodes());
             self.clocks.frames += clock.elapsed().as_secs_f64();
         }
         Ok(())
@@ -46,9 +62,9 @@ impl Simulation {
     /// # Errors
     /// [`SetupError::TooMuchOutput`].
     pub(super) fn check_room(&self, more: usize, layout: Layout) -> Result<(), SetupError> {
-        let nodes = layout.nodes().max(self.most_frame_nodes);
+        let nodes = layout.nodes().max(self.frame_room.nodes);
         let (frames, layout) = (self.record.frames.len() + more, Layout::new(nodes, layout.densities()));
-        check_frames(frames, layout, self.record.fields.len(), self.most_frame_bytes)
+        check_frames(frames, layout, self.record.fields.len(), self.frame_room.bytes)
     }
 }
 
@@ -80,10 +96,10 @@ mod tests {
     fn a_run_stops_before_the_frame_that_has_no_room_and_keeps_the_others() {
         let mut simulation = Simulation::new(&scene("three_fold", 10_000)).unwrap();
         let layout = simulation.layout();
-        simulation.most_frame_bytes = frame_bytes(40, Layout::new(2 * layout.nodes(), 1), 0);
+        simulation.frame_room.bytes = frame_bytes(40, Layout::new(2 * layout.nodes(), 1), 0);
         while simulation.step(&mut Quiet) {}
         let (frames, nodes) = failure(&simulation);
-        assert_eq!(nodes, simulation.most_frame_nodes.max(simulation.layout().nodes()));
+        assert_eq!(nodes, simulation.frame_room.nodes.max(simulation.layout().nodes()));
         // The state at which it stops is a frame of its own.
         assert_eq!(simulation.frames().len(), frames);
         let record = simulation.into_record();
@@ -94,7 +110,7 @@ mod tests {
     fn a_run_stops_where_more_nodes_leave_no_room_for_its_frames() {
         let mut simulation = Simulation::new(&scene("three_fold_sharp", 1)).unwrap();
         let first = simulation.layout();
-        simulation.most_frame_bytes = frame_bytes(2, first, 0);
+        simulation.frame_room.bytes = frame_bytes(2, first, 0);
         while simulation.step(&mut Quiet) {}
         let (frames, nodes) = failure(&simulation);
         assert!(frames == 2 && nodes > first.nodes(), "{frames} frames on {nodes} nodes");

@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use super::clocks::Clocks;
+use super::saving::FrameRoom;
 use super::{ENERGY_TOLERANCE_SHARE, Simulation};
 use crate::energies::EnergyTerm;
 use crate::flow::MetricRole;
@@ -11,7 +12,6 @@ use crate::integrator::{
 };
 use crate::run::equilibrium::Equilibrium;
 use crate::run::frames::{Start, frame};
-use crate::run::limits::MOST_FRAME_BYTES;
 use crate::run::membrane::Membrane;
 use crate::run::own_terms::OwnTerms;
 use crate::run::provenance::Provenance;
@@ -103,7 +103,6 @@ impl Simulation {
             energy_tolerance: ENERGY_TOLERANCE_SHARE * scene.accuracy.tolerance,
             doubts_gradients,
         };
-        let (rest, mesh_nodes) = (rest_tolerance(scene), mesh.nodes);
         let frame_times = frame_times(&scene.output, end);
         let record = Record {
             title: scene.title.clone(),
@@ -124,12 +123,13 @@ impl Simulation {
             equilibrium: scene
                 .time
                 .stop_at_equilibrium
-                .then(|| Equilibrium::new(rest, energy, dissipation, end)),
+                .then(|| Equilibrium::new(rest_tolerance(scene), energy, dissipation, end)),
             integration: Adaptive::new(stepper, options, energy, counters),
             gauges,
             adaptation,
             misses_data: scene.accuracy.nodes != Nodes::Auto
                 && missed > MISSED.max(MISSED_TOLERANCES * scene.accuracy.tolerance),
+            frame_room: FrameRoom::new(mesh.nodes),
             mesh,
             remapped_at: 0,
             switches: 0,
@@ -139,8 +139,6 @@ impl Simulation {
             until: f64::INFINITY,
             frame_times,
             scheduled_frames: 1,
-            most_frame_nodes: mesh_nodes,
-            most_frame_bytes: MOST_FRAME_BYTES,
             scratch: state,
             closure_defect,
             allowed_crossings: scene.flow.stop_on_contact.then_some(allowed_crossings),
