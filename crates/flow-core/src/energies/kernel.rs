@@ -5,7 +5,6 @@ use std::f64::consts::PI;
 use multiversion::multiversion;
 
 use super::Order;
-use super::adhesion::CutOff;
 use crate::expression::{Expression, ExpressionError, Program};
 
 /// G(q) with its derivatives.
@@ -16,6 +15,18 @@ pub(super) struct Kernel {
     at_zero: f64,
     largest_square: f64,
     scratch: Vec<f64>,
+}
+
+/// Distance beyond which the kernel is taken as zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CutOff {
+    /// This distance.
+    At(f64),
+    /// Where G and G′ have fallen below the rounding of their largest values, if they do so near this length.
+    Automatic {
+        /// Length of the curve.
+        length: f64,
+    },
 }
 
 /// Part of its largest value below which a kernel is rounding.

@@ -21,12 +21,13 @@ mod shape;
 
 use std::fmt::Debug;
 
-pub use adhesion::{Adhesion, CutOff};
+pub use adhesion::Adhesion;
 pub use agents::{Agents, NodalLines};
 pub use area::Area;
 pub use bending::Bending;
 pub use fault::TermFault;
 pub use jet::{Fields, Jet, Order};
+pub use kernel::CutOff;
 pub use length::Length;
 pub use local::Local;
 pub use membrane::Membrane;

@@ -2,7 +2,7 @@
 
 mod pairs;
 
-use super::kernel::Kernel;
+use super::kernel::{CutOff, Kernel};
 use super::{EnergyTerm, Fields, Order, ShapeFields, TermFault};
 use crate::expression::{Expression, ExpressionError};
 use crate::geometry::CellList;
@@ -51,18 +51,6 @@ struct Frozen {
     value: Vec<f64>,
     weight: Vec<f64>,
     by_weight: Vec<f64>,
-}
-
-/// Distance beyond which the kernel is taken as zero.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum CutOff {
-    /// This distance.
-    At(f64),
-    /// Where G and G′ have fallen below the rounding of their largest values, if they do so near this length.
-    Automatic {
-        /// Length of the curve.
-        length: f64,
-    },
 }
 
 impl Adhesion {
