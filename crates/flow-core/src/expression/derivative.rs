@@ -100,7 +100,7 @@ impl Rules {
         numerator.map(|numerator| self.divided(numerator, b)).transpose()
     }
 
-    /// `b a^(b−1) a' + a^b ln(a) b'`, where `value` is `a^b`.
+    /// `b a^(b−1) a' + a^b ln(a) b'`, where `value` is `a^b`; the second part is 0 at a = 0 for b > 0.
     fn power(
         &mut self,
         a: NodeId,
@@ -121,13 +121,25 @@ impl Rules {
         };
         let by_exponent = match db {
             Some(db) => {
-                let ln = self.graph.unary(Function::Ln, a)?;
+                let ln = self.logarithm(a, value)?;
                 let slope = self.times(value, ln)?;
                 Some(self.times(slope, db)?)
             }
             None => None,
         };
         self.sum(by_base, by_exponent)
+    }
+
+    /// `ln(a)`, but 0 where `value` = `a^b` is 0: `a^b ln(a)` has the limit 0 there, and 0·(−∞) is no number.
+    fn logarithm(&mut self, a: NodeId, value: NodeId) -> Result<NodeId, ExpressionError> {
+        if self.graph.constant_value(a).is_some_and(|base| base > 0.0) {
+            return self.graph.unary(Function::Ln, a);
+        }
+        let sign = self.graph.unary(Function::Sign, value)?;
+        let (one, size) = (self.graph.constant(1.0)?, self.graph.unary(Function::Abs, sign)?);
+        let vanishes = self.graph.binary(Operator::Subtract, one, size)?;
+        let base = self.graph.binary(Operator::Add, a, vanishes)?;
+        self.graph.unary(Function::Ln, base)
     }
 
     fn negated(&mut self, a: NodeId) -> Result<NodeId, ExpressionError> {
@@ -193,6 +205,29 @@ mod tests {
     fn abs_has_slope_zero_at_zero() {
         assert_eq!(slope("abs(x)").evaluate(&[0.0, 0.0]), 0.0);
         assert_eq!(slope("abs(x)").evaluate(&[-3.0, 0.0]), -1.0);
+    }
+
+    #[test]
+    fn the_slope_by_an_exponent_vanishes_with_the_power() {
+        let by_exponent = |text: &str| Expression::parse(text, &["x", "y"]).unwrap().derivative(1).unwrap();
+        for (x, y, expected) in [
+            (0.0, 2.0, 0.0),
+            (0.0, 0.5, 0.0),
+            (0.0, 0.0, f64::NEG_INFINITY),
+            (2.0, 3.0, 8.0 * 2_f64.ln()),
+            (1e-200, 2.0, 0.0),
+        ] {
+            assert_eq!(by_exponent("x^y").evaluate(&[x, y]), expected, "{x}^{y}");
+        }
+        assert!(by_exponent("x^y").evaluate(&[-2.0, 3.0]).is_nan());
+        assert!(by_exponent("x^y").evaluate(&[0.0, -1.0]).is_nan());
+        let twice = by_exponent("x^y^2").derivative(1).unwrap();
+        assert_eq!(twice.evaluate(&[0.0, 1.5]), 0.0);
+        assert_eq!(by_exponent("x^y").derivative(0).unwrap().evaluate(&[0.0, 1.5]), 0.0);
+        assert_eq!(
+            by_exponent("2^y").nodes().len(),
+            Expression::parse("2^y*0.6931", &["x", "y"]).unwrap().nodes().len()
+        );
     }
 
     #[test]

@@ -79,4 +79,12 @@ pub enum ShapeError {
          {share:.1e} of d²γ/dphi², allowed is {bound:.0e}; smooth them or sample more finely"
     )]
     RoughPoints { points: usize, share: f64, bound: f64 },
+    /// The distances of neighbours jump, so that the curve through the points, whose parameter is the index, oscillates.
+    #[error(
+        "{points} points are unevenly spaced: at point {point} (from 0) the distances to its neighbours are {} and {}, and the \
+         highest third of the Fourier modes makes {share:.1e} of d²γ/dphi², allowed is {bound:.0e}; space the points smoothly, \
+         so that distances change little from one to the next",
+        Brief(*.before), Brief(*.after)
+    )]
+    UnevenPoints { points: usize, point: usize, before: f64, after: f64, share: f64, bound: f64 },
 }

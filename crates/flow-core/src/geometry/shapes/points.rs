@@ -17,6 +17,8 @@ pub(super) struct Interpolated {
 const FEWEST_POINTS: usize = 8;
 /// Largest distance, relative to the diameter, of points that count as repeated.
 const REPEATED: f64 = 1e-12;
+/// Ratio of neighbouring distances from which on rough points are unevenly spaced, before anything else.
+const UNEVEN: f64 = 1.5;
 /// Largest share of the highest third of the modes in the second derivative.
 const ROUGH: f64 = 1e-2;
 const REFINEMENT: usize = 8;
@@ -45,7 +47,7 @@ impl Interpolated {
         if share <= ROUGH {
             Ok(Self { points: points.len(), table: tabulate(&spectra, &grid) })
         } else {
-            Err(ShapeError::RoughPoints { points: points.len(), share, bound: ROUGH })
+            Err(rough(points, share))
         }
     }
 
@@ -85,7 +87,6 @@ fn check(points: &[[f64; 2]]) -> Result<(), ShapeError> {
     if let Some(point) = infinite {
         return Err(ShapeError::PointNotFinite { point, position: points[point] });
     }
-    let distance = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
     let radius = points.iter().map(|&point| distance(point, points[0])).fold(0.0, f64::max);
     let bound = REPEATED * radius;
     for (first, &point) in points.iter().enumerate() {
@@ -96,6 +97,28 @@ fn check(points: &[[f64; 2]]) -> Result<(), ShapeError> {
         }
     }
     Ok(())
+}
+
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+/// What is rough: the spacing of `points`, whose interpolant takes the index for its parameter, or the points themselves.
+#[cold]
+fn rough(points: &[[f64; 2]], share: f64) -> ShapeError {
+    let count = points.len();
+    let step = |i: usize| distance(points[i % count], points[(i + 1) % count]);
+    let distances = |point: usize| [step(point + count - 1), step(point)];
+    let ratio = |point: usize| {
+        let [before, after] = distances(point);
+        (before / after).max(after / before)
+    };
+    let point = (0..count).max_by(|&a, &b| ratio(a).total_cmp(&ratio(b))).unwrap_or_default();
+    if ratio(point) > UNEVEN {
+        let [before, after] = distances(point);
+        return ShapeError::UnevenPoints { points: count, point, before, after, share, bound: ROUGH };
+    }
+    ShapeError::RoughPoints { points: count, share, bound: ROUGH }
 }
 
 /// Share of the highest third of the modes in the root mean square of γ″, where roughness shows.
@@ -185,6 +208,13 @@ mod tests {
         let zigzag = |(i, &[x, y]): (usize, &[f64; 2])| [x + 0.01 * (i % 2) as f64, y];
         let points = ellipse(20).iter().enumerate().map(zigzag).collect();
         assert!(matches!(error(points), ShapeError::RoughPoints { points: 20, .. }));
+        let parameters = (0..100).map(|i| (f64::from(i) + 0.4 * f64::from(i * i % 3)) / 100.0);
+        let uneven = parameters.map(|s| (TAU * s).sin_cos()).map(|(y, x)| [1.3 * x, 0.8 * y]).collect();
+        assert!(matches!(error(uneven), ShapeError::UnevenPoints { points: 100, .. }));
+        let mut points = ellipse(64);
+        points.insert(10, [points[10][0] + 1e-7, points[10][1]]);
+        let text = error(points).to_string();
+        assert!(text.contains("at point 11 (from 0)") && text.contains("1e-7"), "{text}");
         let square = (0..40).map(|i| {
             let t = f64::from(i % 10) / 10.0;
             [[t, 0.0], [1.0, t], [1.0 - t, 1.0], [0.0, 1.0 - t]][i as usize / 10]
