@@ -125,6 +125,12 @@ impl Jet {
         &self.second[block * self.nodes..(block + 1) * self.nodes]
     }
 
+    /// Whether all second derivatives are finite.
+    #[must_use]
+    pub fn has_finite_second(&self) -> bool {
+        self.second.iter().all(|value| value.is_finite())
+    }
+
     /// e at the nodes, to be added to.
     pub fn value_mut(&mut self) -> &mut [f64] {
         &mut self.value

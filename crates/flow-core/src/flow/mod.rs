@@ -21,7 +21,7 @@ mod slope_energy;
 
 pub use curve_fields::CurveFields;
 pub use density_mobility::{Carried, DensityMobility, Diffusion, Exchange, WeightedDiffusion};
-pub use energy_sum::{EnergySum, IntrinsicGradient, TermCost};
+pub use energy_sum::{EnergySum, IntrinsicGradient, NotFinite, TermCost, TermPart, TermPlace};
 pub use excess_density::ExcessDensity;
 pub use flow_map::FlowMap;
 pub use gauge::{CoMoving, Gauge, Graded, MetricRole, ScaledArcLength, Workspace};

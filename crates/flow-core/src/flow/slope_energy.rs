@@ -60,6 +60,12 @@ impl SlopeEnergy {
         at.length() * self.mean_density()
     }
 
+    /// e′ with its derivatives at the state evaluated last, and the fields and slopes there.
+    #[must_use]
+    pub fn jet(&self) -> (&Jet, Fields<'_>) {
+        (&self.jet, Fields::new(self.layout.nodes(), &self.fields))
+    }
+
     /// Mean over the flux points of ∂²e′/∂(∇_sφ)∂(∇_sψ) at the linearisation.
     #[must_use]
     pub fn mean_cost(&self, a: usize, b: usize) -> f64 {

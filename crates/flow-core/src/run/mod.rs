@@ -2,6 +2,7 @@
 
 mod adaptation;
 mod choices;
+mod culprit;
 mod diagnostics;
 mod energy_density;
 mod energy_terms;
@@ -39,6 +40,7 @@ mod why_slow;
 
 pub use crate::integrator::{Counters, Rejections};
 pub use adaptation::ResolutionError;
+pub use culprit::Culprit;
 pub use energy_terms::nodal_lines;
 pub use equilibrium::Equilibrium;
 pub use evaluation::{Evaluation, EvaluationError, evaluate};

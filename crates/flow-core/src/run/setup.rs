@@ -44,6 +44,8 @@ pub struct Setup {
     pub(super) missed: f64,
     /// What the energies refer to.
     pub(super) initial: Initial,
+    /// Names of the densities.
+    pub(super) densities: Vec<String>,
 }
 
 impl Setup {
@@ -94,6 +96,7 @@ impl Setup {
             adaptation,
             missed,
             initial,
+            densities: scene.density.iter().map(|density| density.name.clone()).collect(),
         })
     }
 }

@@ -1,5 +1,6 @@
 //! Why a scene that reads well makes no initial state.
 
+use super::culprit::Culprit;
 use super::scene::SceneError;
 use crate::expression::ExpressionError;
 use crate::geometry::shapes::ShapeError;
@@ -73,12 +74,18 @@ pub enum SetupError {
     /// A derivative of an expression is too large.
     #[error("`{key}`: {fault}")]
     Expression { key: &'static str, fault: ExpressionError },
-    /// The energy or its gradient is NaN or infinite on the initial data.
+    /// The energy, its gradient or its second derivative is NaN or infinite on the initial data.
     #[error(
-        "the energy term `{term}` is not finite on the initial data: its value is {value}; check its expressions on \
-         the range κ = {low:.4} … {high:.4} of the initial curvature and on the initial densities"
+        "the energy term `{}` is not finite on the initial data: {culprit}; change its expressions so that they and their first \
+         two derivatives are finite there, or start from other data", .culprit.found.term
     )]
-    EnergyNotFinite { term: String, value: f64, low: f64, high: f64 },
+    EnergyNotFinite { culprit: Box<Culprit> },
+    /// No term is to blame, but the state cannot be evaluated.
+    #[error(
+        "the initial state of {nodes} nodes cannot be evaluated, though each term of the energy is finite on it: the curve does not \
+         close on its nodes, its metric is not positive, or the mobility is not defined; try more `accuracy.nodes`"
+    )]
+    StateNotFinite { nodes: usize },
     /// Two terms have one name, or the name of a term from outside is no key.
     #[error(
         "a term from outside is named `{name}`: names of terms are lower-case letters, digits and `_`, and no two terms of a run \

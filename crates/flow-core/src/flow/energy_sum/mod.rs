@@ -6,6 +6,7 @@
 mod alone;
 mod by_term;
 mod density;
+mod not_finite;
 mod positions;
 mod stiffness;
 
@@ -22,6 +23,7 @@ use crate::geometry::{Complex64, Layout, PeriodicGrid, SpectralLayout};
 use crate::operators::Derivative;
 
 pub use alone::TermCost;
+pub use not_finite::{NotFinite, TermPart, TermPlace};
 
 /// Gradient of the energy, as the flow map takes it.
 #[derive(Clone, Debug)]

@@ -2,6 +2,7 @@
 
 mod derivative_check;
 mod implicit;
+mod not_finite;
 mod part_costs;
 mod parts;
 mod slopes;

@@ -132,6 +132,12 @@ impl MovingMetricEnergy {
         energy
     }
 
+    /// E with its derivatives at the state evaluated last, and the fields and slopes there.
+    #[must_use]
+    pub fn flux_jet(&self) -> (&Jet, Fields<'_>) {
+        (&self.flux_jet, Fields::new(self.layout.nodes(), &self.at_flux))
+    }
+
     /// Mean over the flux points of ∂²E/∂(∇_sφ)∂(∇_sψ) at the state that was linearised last.
     #[must_use]
     pub fn mean_cost(&self, a: usize, b: usize) -> f64 {

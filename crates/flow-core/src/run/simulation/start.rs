@@ -10,9 +10,9 @@ use crate::flow::MetricRole;
 use crate::integrator::{
     Adaptive, AdaptiveOptions, Clocked, Counters, Finish, INTEGRALS, Integrals, Multistep, Problem, Stopwatch,
 };
+use crate::run::culprit::Culprit;
 use crate::run::equilibrium::Equilibrium;
 use crate::run::frames::{Start, frame};
-use crate::run::membrane::Membrane;
 use crate::run::own_terms::OwnTerms;
 use crate::run::provenance::Provenance;
 use crate::run::record::{Record, StepLog, StopReason};
@@ -68,6 +68,7 @@ impl Simulation {
             mesh,
             adaptation,
             missed,
+            densities,
             ..
         } = setup;
         if let Some(fault) = membrane.flow().fault() {
@@ -109,7 +110,7 @@ impl Simulation {
             scene: scene.text().to_owned(),
             resolved_scene: scene.to_toml(),
             energy_terms: membrane.flow().energy_terms().names().map(str::to_owned).collect(),
-            densities: scene.density.iter().map(|density| density.name.clone()).collect(),
+            densities,
             fields: diagnostics.field_names(),
             diagnostics: diagnostics.value_names(),
             frames: vec![first],
@@ -160,33 +161,34 @@ impl Setup {
     /// Puts the initial state onto its constraints; its energy, its dissipation and the rates of the integrals.
     ///
     /// # Errors
-    /// [`SetupError::EnergyNotFinite`], which names the term, or the [`SetupError::Term`] by which it refuses the data.
+    /// [`SetupError::EnergyNotFinite`], which names the term, the [`SetupError::Term`] by which it refuses the data, or
+    /// [`SetupError::StateNotFinite`].
     pub fn finish(&mut self) -> Result<(f64, f64, [f64; INTEGRALS]), SetupError> {
-        match self.membrane.finish(0.0, &mut self.state) {
-            Finish::Good { energy, dissipation, integral_rates } => Ok((energy, dissipation, integral_rates)),
-            Finish::NotFinite => Err(not_finite(&mut self.membrane, &self.state)),
+        let Finish::Good { energy, dissipation, integral_rates } = self.membrane.finish(0.0, &mut self.state)
+        else {
+            let nodes = self.membrane.layout().nodes();
+            return Err(self.not_finite().unwrap_or(SetupError::StateNotFinite { nodes }));
+        };
+        // No implicit step could be solved, which would seem to be the end of the flow.
+        if !self.membrane.flow().has_finite_second_derivatives()
+            && let Some(error) = self.not_finite()
+        {
+            return Err(error);
         }
+        Ok((energy, dissipation, integral_rates))
     }
-}
 
-/// Names the term that is not finite on the initial data, or says what it refuses them for.
-#[cold]
-fn not_finite(membrane: &mut Membrane, state: &[f64]) -> SetupError {
-    let layout = membrane.layout();
-    let mut nodal = vec![0.0; layout.len()];
-    membrane.flow().decode(state, &mut nodal);
-    let values = membrane.flow().energies_by_term(&nodal);
-    if let Some(fault) = membrane.flow().fault() {
-        return fault.into(); // the term itself knows best
-    }
-    let names: Vec<_> = membrane.flow().energy_terms().names().collect();
-    let culprit = values.iter().position(|value| !value.is_finite()).unwrap_or_default();
-    let curvature = membrane.flow().current().at_nodes(0).to_vec();
-    SetupError::EnergyNotFinite {
-        term: names.get(culprit).copied().unwrap_or_default().to_owned(),
-        value: values.get(culprit).copied().unwrap_or(f64::NAN),
-        low: curvature.iter().copied().fold(f64::INFINITY, f64::min),
-        high: curvature.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+    /// Names the term that is not finite on the initial data, or says what it refuses them for.
+    #[cold]
+    fn not_finite(&mut self) -> Option<SetupError> {
+        let flow = self.membrane.flow();
+        flow.set_current(&self.state);
+        let found = flow.not_finite();
+        if let Some(fault) = flow.fault() {
+            return Some(fault.into()); // the term itself knows best
+        }
+        let culprit = Culprit { found: found?, densities: self.densities.clone() };
+        Some(SetupError::EnergyNotFinite { culprit: culprit.into() })
     }
 }
 
