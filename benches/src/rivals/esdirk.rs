@@ -74,7 +74,7 @@ impl Formula for Esdirk {
             add_scaled(&mut self.guess, gamma, &self.rates[index - 1]);
             let stage = Stage { gamma, constant: &self.constant, goal };
             let outcome = self.newton.solve(problem, norm, &stage, &self.guess, &mut self.stage, counters);
-            if outcome == NewtonOutcome::Failed {
+            if outcome != NewtonOutcome::Converged {
                 return false;
             }
             let stage = self.stage.iter().zip(&self.constant);

@@ -89,7 +89,7 @@ pub fn measure(scene: &Scene) -> Outcome {
 fn of_failure(failure: &Failure) -> End {
     match failure {
         Failure::Integration(IntegrationError::TooManySteps { .. }) => End::TooManySteps,
-        Failure::Integration(_) => End::StepUnderflow,
+        Failure::Integration(_) | Failure::NotFinite { .. } => End::StepUnderflow,
         Failure::Resolution(_) => End::Unresolved,
         _ => End::Fault,
     }

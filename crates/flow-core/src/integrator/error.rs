@@ -10,9 +10,7 @@ pub enum IntegrationError {
     /// The step size fell to the rounding of the time.
     #[error(
         "the step size fell to {step:.3e} at t = {time:.6e}, the rounding of the time (attempts rejected in a row: \
-         {rejections}, the last because {}); the flow may end here (a curve shrinking to a point, an \
-         ill-posed energy), or the tolerance asks for more than double precision: try a larger tolerance or \
-         more nodes", reason(*.cause)
+         {rejections}, the last because {}); {}", reason(*.cause), advice(*.cause)
     )]
     StepUnderflow { time: f64, step: f64, rejections: u64, cause: Rejection },
     /// Two times lie so close together that no step fits between them.
@@ -45,6 +43,20 @@ fn reason(cause: Rejection) -> &'static str {
         Rejection::Error => "the local error was too large",
         Rejection::Solver => "the implicit solve did not converge",
         Rejection::EnergyRise => "the energy rose",
-        Rejection::NotFinite => "a value was not finite or the curve did not close",
+        Rejection::NotFinite => "the energy or its derivatives are not finite, or the curve did not close",
+    }
+}
+
+#[cold]
+fn advice(cause: Rejection) -> &'static str {
+    match cause {
+        Rejection::NotFinite => {
+            "an expression may leave its range here (a root, a logarithm or a fractional power of what falls below 0, a division by \
+             0), or the curve its own: keep the expressions finite where the flow goes, or try more nodes"
+        }
+        _ => {
+            "the flow may end here (a curve shrinking to a point, an ill-posed energy), or the tolerance asks for more than double \
+             precision: try a larger tolerance or more nodes"
+        }
     }
 }

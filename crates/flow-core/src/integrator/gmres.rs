@@ -36,7 +36,7 @@ pub struct Target {
 pub struct Solved {
     /// Iterations.
     pub iterations: usize,
-    /// Norm of the residual.
+    /// Norm of the residual; no number if a product was not finite.
     pub residual: f64,
     /// Whether the residual is below its goal.
     pub converged: bool,
@@ -120,7 +120,8 @@ impl Gmres {
             }
             let radius = column[k].hypot(size);
             if !radius.is_finite() || radius == 0.0 {
-                return Solved { iterations, residual: f64::NAN, converged: false };
+                let residual = if radius == 0.0 { residual } else { f64::NAN };
+                return Solved { iterations, residual, converged: false };
             }
             let (c, s) = (column[k] / radius, size / radius);
             self.rotations[k] = [c, s];

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::error_norm::ErrorNorm;
 use super::gmres::{Gmres, Target};
-use super::{Counters, Problem};
+use super::{Counters, Problem, Rejection};
 use crate::geometry::vectors::add_scaled;
 
 const MOST_ITERATIONS: usize = 4;
@@ -33,6 +33,15 @@ pub enum NewtonOutcome {
     Converged,
     /// It is not; a smaller step is needed.
     Failed,
+    /// It is not, since a value on the way was infinite or no number; as above.
+    NotFinite,
+}
+
+impl NewtonOutcome {
+    /// Why a step with this outcome, which is not convergence, is rejected.
+    pub(super) fn rejection(self) -> Rejection {
+        if self == Self::NotFinite { Rejection::NotFinite } else { Rejection::Solver }
+    }
 }
 
 /// An implicit stage y = `constant` + `gamma` f(y), to be solved to the error `goal`.
@@ -129,16 +138,16 @@ impl NewtonKrylov {
             problem.linearise(guess, &mut self.correction);
             counters.right_hand_sides += 1;
             let serves = self.factorisation_serves(stage.gamma);
-            if !serves && !self.factorise(problem, stage.gamma, counters) {
-                return NewtonOutcome::Failed;
-            }
             y.copy_from_slice(guess);
-            if self.iterate(problem, norm, stage, y, counters) {
-                self.factorisation.age += 1;
-                return NewtonOutcome::Converged;
+            if !serves && !self.factorise(problem, stage.gamma, counters) {
+                return failed(norm.norm(&self.correction));
             }
-            if !serves {
-                return NewtonOutcome::Failed;
+            let outcome = self.iterate(problem, norm, stage, y, counters);
+            if outcome == NewtonOutcome::Converged {
+                self.factorisation.age += 1;
+            }
+            if outcome == NewtonOutcome::Converged || !serves {
+                return outcome;
             }
             self.factorisation.gamma = None;
         }
@@ -168,28 +177,29 @@ impl NewtonKrylov {
         stage: &Stage<'_>,
         y: &mut [f64],
         counters: &mut Counters,
-    ) -> bool {
+    ) -> NewtonOutcome {
         let (mut contraction, mut previous) = (FIRST_CONTRACTION, f64::INFINITY);
         for iteration in 0..MOST_ITERATIONS {
             if iteration > 0 {
                 problem.rate(y, &mut self.correction);
                 counters.right_hand_sides += 1;
             }
-            let Some(size) = self.correct_by_rate(problem, norm, stage, true, y, counters) else {
-                return false;
+            let size = match self.correct_by_rate(problem, norm, stage, true, y, counters) {
+                Ok(size) => size,
+                Err(outcome) => return outcome,
             };
             if iteration > 0 {
                 contraction = (0.3 * contraction).max(size / previous);
             }
             if size * contraction.min(1.0) <= stage.goal {
-                return true;
+                return NewtonOutcome::Converged;
             }
             if iteration > 0 && size > 2.0 * previous {
-                return false;
+                return NewtonOutcome::Failed;
             }
             previous = size;
         }
-        false
+        NewtonOutcome::Failed
     }
 
     /// One Newton correction of `y`, with the linear residual small in every coefficient; its size, or none if the
@@ -205,7 +215,7 @@ impl NewtonKrylov {
         // At the state itself: the linearisation of a guess far away converges slowly, or not at all, in stiff modes.
         problem.linearise(y, &mut self.correction);
         counters.right_hand_sides += 1;
-        self.correct_by_rate(problem, norm, stage, false, y, counters)
+        self.correct_by_rate(problem, norm, stage, false, y, counters).ok()
     }
 
     /// As [`NewtonKrylov::correct`], with the rate at `y` known and the residual small in the weighted norm only if
@@ -218,7 +228,7 @@ impl NewtonKrylov {
         weighted: bool,
         y: &mut [f64],
         counters: &mut Counters,
-    ) -> Option<f64> {
+    ) -> Result<f64, NewtonOutcome> {
         counters.newton_iterations += 1;
         stage.residual(y, &mut self.correction);
         let target = Target { goal: KRYLOV_SHARE * stage.goal, reduction: KRYLOV_REDUCTION, weighted };
@@ -238,9 +248,15 @@ impl NewtonKrylov {
         }
         let size = norm.norm(&self.correction);
         if !size.is_finite() || !solved.converged {
-            return None;
+            return Err(failed(size + solved.residual));
         }
         add_scaled(y, 1.0, &self.correction);
-        Some(size)
+        Ok(size)
     }
+}
+
+/// The outcome of a solve that failed, where `size` measures what it met.
+#[cold]
+fn failed(size: f64) -> NewtonOutcome {
+    if size.is_finite() { NewtonOutcome::Failed } else { NewtonOutcome::NotFinite }
 }

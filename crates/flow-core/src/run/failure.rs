@@ -1,6 +1,7 @@
 //! Why a run fails on the way.
 
 use super::adaptation::ResolutionError;
+use super::culprit::Culprit;
 use super::setup_error::SetupError;
 use crate::energies::TermFault;
 use crate::integrator::IntegrationError;
@@ -13,6 +14,9 @@ pub enum Failure {
     /// The time integration found no further step, or was allowed none.
     #[error(transparent)]
     Integration(#[from] IntegrationError),
+    /// The same, and a term of the energy is not finite where the next step leads.
+    #[error("{error}; next, the energy term `{}` is not finite: {culprit}", .culprit.found.term)]
+    NotFinite { error: IntegrationError, culprit: Box<Culprit> },
     /// The most nodes do not resolve the state.
     #[error(transparent)]
     Resolution(#[from] ResolutionError),

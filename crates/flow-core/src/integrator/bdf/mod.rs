@@ -206,10 +206,10 @@ impl Stepper for Bdf {
         let stage = Stage { gamma, constant: &self.constant, goal: self.goal() };
         let outcome =
             self.newton.solve(problem, &self.norm, &stage, &self.predicted, &mut self.candidate, counters);
-        if outcome == NewtonOutcome::Failed {
+        if outcome != NewtonOutcome::Converged {
             self.pace.failures += 1;
             self.pace.step *= 0.25;
-            return Err(Rejection::Solver);
+            return Err(outcome.rejection());
         }
         for ((difference, y), predicted) in
             self.difference.iter_mut().zip(&self.candidate).zip(&self.predicted)

@@ -120,7 +120,7 @@ impl Exponential {
         }
         let growth = if error.is_finite() { self.growth(error, order, BIAS[1]) } else { 0.0 };
         self.fail(growth.clamp(0.2, 0.9));
-        Err(Rejection::Error)
+        Err(if error.is_finite() { Rejection::Error } else { Rejection::NotFinite })
     }
 
     /// Estimate of the error at order `order`, for a power of the step size; none if too few values of N are known.

@@ -143,7 +143,7 @@ impl Simulation {
             (Err(_), Some(fault @ TermFault::TooManyPairs { .. })) => {
                 self.fail(Failure::Term { time: self.time(), fault });
             }
-            (Err(error), _) => self.fail(error),
+            (Err(error), _) => self.fail_step(error),
             (Ok(report), fault) => {
                 self.closure_defect = self.membrane.closure_defect();
                 self.log(&report);

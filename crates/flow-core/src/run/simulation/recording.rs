@@ -3,7 +3,8 @@
 use std::time::Instant;
 
 use super::Simulation;
-use crate::integrator::{Counters, Stepper};
+use crate::integrator::{Counters, IntegrationError, Rejection, Stepper};
+use crate::run::culprit::Culprit;
 use crate::run::failure::Failure;
 use crate::run::frames::frame;
 use crate::run::record::{Frame, Record, StepLog, StopReason};
@@ -84,6 +85,23 @@ impl Simulation {
         self.record.counters = self.counters_with_time();
         self.record.stop_reason = reason.clone();
         self.stopped = Some(reason);
+    }
+
+    /// Ends the run with `error`, and names the term that stands in the way of the next step, if one does.
+    #[cold]
+    pub(super) fn fail_step(&mut self, error: IntegrationError) {
+        let IntegrationError::StepUnderflow { cause: Rejection::NotFinite, .. } = error else {
+            return self.fail(error);
+        };
+        let flow = self.membrane.flow();
+        flow.set_current(self.integration.candidate());
+        match flow.not_finite() {
+            Some(found) => {
+                let culprit = Culprit { found, densities: self.record.densities.clone() };
+                self.fail(Failure::NotFinite { error, culprit: culprit.into() });
+            }
+            None => self.fail(error),
+        }
     }
 
     pub(super) fn fail(&mut self, failure: impl Into<Failure>) {

@@ -1,5 +1,7 @@
 //! The step loop with its guards: finite values, falling energy, step sizes above rounding.
 
+mod parts;
+
 use super::balance::{BALANCED, ENERGY_ROUNDING, IMBALANCE, growth_in_balance, share_lost};
 use super::integrals::POSITIVE;
 use super::{
@@ -59,47 +61,6 @@ impl<S: Stepper> Adaptive<S> {
     #[must_use]
     pub fn watched(self, rest: Rest) -> Self {
         Self { rest, ..self }
-    }
-
-    /// The watch over the energy.
-    #[must_use]
-    pub fn rest(&self) -> Rest {
-        self.rest
-    }
-
-    /// The stepper.
-    #[must_use]
-    pub fn stepper(&self) -> &S {
-        &self.stepper
-    }
-
-    /// Lets the steps end at `end` at the latest.
-    pub fn set_end(&mut self, end: f64) {
-        self.options.end = end;
-    }
-
-    /// Energy of the last accepted state.
-    #[must_use]
-    pub fn energy(&self) -> f64 {
-        self.energy
-    }
-
-    /// The settings.
-    #[must_use]
-    pub fn options(&self) -> &AdaptiveOptions {
-        &self.options
-    }
-
-    /// Work so far.
-    #[must_use]
-    pub fn counters(&self) -> &Counters {
-        &self.counters
-    }
-
-    /// The integrals carried along.
-    #[must_use]
-    pub fn integrals(&self) -> [f64; INTEGRALS] {
-        self.stepper.integrals()
     }
 
     /// Takes one step, trying again until one is accepted.
