@@ -15,7 +15,7 @@ pub enum Failure {
     #[error(transparent)]
     Integration(#[from] IntegrationError),
     /// The same, and a term of the energy is not finite where the next step leads.
-    #[error("{error}; next, the energy term `{}` is not finite: {culprit}", .culprit.found.term)]
+    #[error("{error}; a little later, the energy term `{}` is not finite: {culprit}", .culprit.found.term)]
     NotFinite { error: IntegrationError, culprit: Box<Culprit> },
     /// The most nodes do not resolve the state.
     #[error(transparent)]

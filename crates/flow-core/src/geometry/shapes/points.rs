@@ -214,7 +214,7 @@ mod tests {
         let mut points = ellipse(64);
         points.insert(10, [points[10][0] + 1e-7, points[10][1]]);
         let text = error(points).to_string();
-        assert!(text.contains("at point 11 (from 0)") && text.contains("1e-7"), "{text}");
+        assert!(text.contains("at point 11 (from 0)") && text.contains("1.000e-7"), "{text}");
         let square = (0..40).map(|i| {
             let t = f64::from(i % 10) / 10.0;
             [[t, 0.0], [1.0, t], [1.0 - t, 1.0], [0.0, 1.0 - t]][i as usize / 10]

@@ -1,5 +1,6 @@
 //! Runs a scene: steps, frames, stop.
 
+mod ahead;
 mod clocks;
 mod recording;
 mod remap;

@@ -3,7 +3,8 @@
 use std::time::Instant;
 
 use super::Simulation;
-use crate::integrator::{Counters, IntegrationError, Rejection, Stepper};
+use super::ahead::ahead;
+use crate::integrator::{Counters, IntegrationError, Stepper};
 use crate::run::culprit::Culprit;
 use crate::run::failure::Failure;
 use crate::run::frames::frame;
@@ -90,18 +91,20 @@ impl Simulation {
     /// Ends the run with `error`, and names the term that stands in the way of the next step, if one does.
     #[cold]
     pub(super) fn fail_step(&mut self, error: IntegrationError) {
-        let IntegrationError::StepUnderflow { cause: Rejection::NotFinite, .. } = error else {
+        if !matches!(error, IntegrationError::StepUnderflow { .. }) {
             return self.fail(error);
-        };
-        let flow = self.membrane.flow();
-        flow.set_current(self.integration.candidate());
-        match flow.not_finite() {
-            Some(found) => {
-                let culprit = Culprit { found, densities: self.record.densities.clone() };
-                self.fail(Failure::NotFinite { error, culprit: culprit.into() });
-            }
-            None => self.fail(error),
         }
+        let candidate = self.integration.candidate().to_vec();
+        let later = ahead(&mut self.membrane, self.integration.stepper().state());
+        let flow = self.membrane.flow();
+        let found = [candidate, later].into_iter().find_map(|state| {
+            flow.set_current(&state);
+            // What is no curve says nothing of the terms.
+            if flow.current().length() > 0.0 { flow.not_finite() } else { None }
+        });
+        let Some(found) = found else { return self.fail(error) };
+        let culprit = Culprit { found, densities: self.record.densities.clone() };
+        self.fail(Failure::NotFinite { error, culprit: culprit.into() });
     }
 
     pub(super) fn fail(&mut self, failure: impl Into<Failure>) {

@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use super::ahead::ahead;
 use super::clocks::Clocks;
 use super::saving::FrameRoom;
 use super::{ENERGY_TOLERANCE_SHARE, Simulation};
@@ -171,11 +172,23 @@ impl Setup {
         };
         // No implicit step could be solved, which would seem to be the end of the flow.
         if !self.membrane.flow().has_finite_second_derivatives()
+            && !self.leaves_at_once()
             && let Some(error) = self.not_finite()
         {
             return Err(error);
         }
+        self.membrane.flow().set_current(&self.state);
         Ok((energy, dissipation, integral_rates))
+    }
+
+    /// Whether the second derivatives are finite a little later, and the first step, which is solved there, gets on: the state may have
+    /// a density of 0 at a node, as long as it does not stay there.
+    #[cold]
+    fn leaves_at_once(&mut self) -> bool {
+        let ahead = ahead(&mut self.membrane, &self.state);
+        let flow = self.membrane.flow();
+        flow.set_current(&ahead);
+        flow.has_finite_second_derivatives()
     }
 
     /// Names the term that is not finite on the initial data, or says what it refuses them for.
