@@ -78,7 +78,7 @@ impl EnergySum {
             found
         };
         search(&|alone, energy, gradient| alone.infinite(at, energy, gradient))
-            .or_else(|| search(&|alone, _, _| alone.in_jets(at, |part, value| is_squarable(part, value))))
+            .or_else(|| search(&|alone, _, _| alone.in_jets(at, is_squarable)))
     }
 
     fn room(&self) -> IntrinsicGradient {

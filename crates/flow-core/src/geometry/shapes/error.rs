@@ -83,7 +83,7 @@ pub enum ShapeError {
     #[error(
         "{points} points are unevenly spaced: at point {point} (from 0) the distances to its neighbours are {} and {}, and the \
          highest third of the Fourier modes makes {share:.1e} of d²γ/dphi², allowed is {bound:.0e}; space the points smoothly, \
-         so that distances change little from one to the next",
+         so that distances change little from one to the next, or sample more finely",
         Brief(*.before), Brief(*.after)
     )]
     UnevenPoints { points: usize, point: usize, before: f64, after: f64, share: f64, bound: f64 },

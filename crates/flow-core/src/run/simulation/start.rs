@@ -69,7 +69,6 @@ impl Simulation {
             mesh,
             adaptation,
             missed,
-            densities,
             ..
         } = setup;
         if let Some(fault) = membrane.flow().fault() {
@@ -111,7 +110,7 @@ impl Simulation {
             scene: scene.text().to_owned(),
             resolved_scene: scene.to_toml(),
             energy_terms: membrane.flow().energy_terms().names().map(str::to_owned).collect(),
-            densities,
+            densities: scene.density.iter().map(|density| density.name.clone()).collect(),
             fields: diagnostics.field_names(),
             diagnostics: diagnostics.value_names(),
             frames: vec![first],
