@@ -2,13 +2,20 @@
 
 use super::super::curve_fields::CurveFields;
 use super::EnergySum;
-use crate::energies::{Fields, Jet};
+use crate::energies::{Fields, Jet, TermFault};
 
 impl EnergySum {
     /// Whether a term depends on where the nodes lie.
     #[must_use]
     pub fn depends_on_positions(&self) -> bool {
         self.shape.is_some()
+    }
+
+    /// What a term finds wrong with the state evaluated last, whose fields are `at`.
+    #[must_use]
+    pub fn fault(&self, at: &CurveFields) -> Option<TermFault> {
+        let fields = Fields::new(self.layout.nodes(), at.pointwise());
+        self.terms.iter().find_map(|term| term.fault(fields))
     }
 
     /// Energy of each term at a state, in the order of the terms.

@@ -15,7 +15,7 @@ use super::graded_energy::{GradedEnergy, add_spectrum, mean_product};
 use super::moving_metric_energy::MovingMetricEnergy;
 use super::shape_energy::ShapeEnergy;
 use super::slope_energy::SlopeEnergy;
-use crate::energies::{EnergyTerm, Fields, Jet, LengthJet, Order, TermFault};
+use crate::energies::{EnergyTerm, Jet, LengthJet, Order};
 use crate::geometry::vectors::{
     add_product, add_real_symbol, multiply, multiply_into, scale_into, weighted_dot,
 };
@@ -109,13 +109,6 @@ impl EnergySum {
     #[must_use]
     pub fn kept_bytes(&self) -> f64 {
         self.terms.iter().map(|term| term.kept_bytes()).sum()
-    }
-
-    /// What a term finds wrong with the state evaluated last, whose fields are `at`.
-    #[must_use]
-    pub fn fault(&self, at: &CurveFields) -> Option<TermFault> {
-        let fields = Fields::new(self.layout.nodes(), at.pointwise());
-        self.terms.iter().find_map(|term| term.fault(fields))
     }
 
     /// Pointwise second derivatives at the state evaluated last with [`EnergySum::linearise`].
