@@ -129,3 +129,28 @@ fn mixed_slopes_do_not_stop_surface_diffusion() {
         assert_eq!(record.stop_reason, StopReason::EndTime, "{mobility}");
     }
 }
+
+/// Taken apart into nodes and what lies between them, higher powers would have no bound below: the interpolant overshoots.
+#[test]
+fn powers_of_a_field_and_a_slope_stay_together() {
+    for (expression, energy) in [
+        ("0.1*(2*(kappa - 1) + a_sigma)^4 + 0.01*a_sigma^2", 2.52886),
+        ("0.1*cosh(4*(kappa - 1) + 2*a_sigma) + 0.01*a_sigma^2", 3.6019),
+    ] {
+        let record = run(&scene(&format!(
+            "
+            curve = {{ shape = 'ellipse', semi_axes = [1.5, 1.0] }}
+            density = [{{ name = 'a', initial = '0.55 + 0.1*cos(4*pi*s) + 0.05*sin(2*pi*s)', mobility = 'exchange' }}]
+            energy.local.expression = '{expression}'
+            energy.bending.rigidity = 1.0
+            energy.length = {{ penalty = 3.0, target_ratio = 1.0 }}
+            time = {{ end = 0.5, max_steps = 500, stop_at_equilibrium = false }}
+            accuracy = {{ nodes = 64, tolerance = 1e-5 }}
+            "
+        )));
+        assert_eq!(record.stop_reason, StopReason::EndTime, "{expression}");
+        let end = record.frames.last().expect("a frame").energy;
+        println!("{expression}: {end}");
+        assert!((end / energy - 1.0).abs() < 1e-3, "{expression}: {end}");
+    }
+}

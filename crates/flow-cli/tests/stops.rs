@@ -30,10 +30,20 @@ fn two_sigterms_in_a_row_keep_what_was_computed() {
     assert!(!folder.names().contains(&"out.h5.lock".to_owned()));
 }
 
+/// Whether this process ignores the signal; no, where that cannot be told.
+fn is_ignored(number: u32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_some_and(|mask| mask >> (number - 1) & 1 == 1)
+}
+
 /// The terminal goes, the processor time is used up, a batch system says that the end is near.
 #[test]
 fn whatever_ends_a_job_keeps_what_was_computed() {
-    for signal in ["HUP", "XCPU", "USR1", "USR2"] {
+    // Under `nohup` the tests themselves hand an ignored signal on.
+    let signals = [("HUP", 1), ("XCPU", 24), ("USR1", 10), ("USR2", 12)];
+    for (signal, _) in signals.into_iter().filter(|(_, number)| !is_ignored(*number)) {
         let folder = Folder::new(signal);
         let mut child = folder.long("out.h5").spawn().unwrap();
         wait_for(&folder.0.join("out.h5.lock"));
@@ -76,4 +86,23 @@ fn a_limit_beyond_all_clocks_is_none() {
         let done = folder.call(&[&run[..], &[limit]].concat());
         assert_eq!(code(&done), 0, "{}", said(&done));
     }
+}
+
+/// Something else came to the name of the result while the run was stopped.
+#[test]
+fn going_on_spares_what_is_no_result() {
+    let folder = Folder::new("spared");
+    let mut child = folder.long("out.h5").spawn().unwrap();
+    wait_for(&folder.0.join("out.h5.lock"));
+    send(&child, "TERM");
+    assert_eq!(child.wait().unwrap().code(), Some(6));
+    let result = folder.0.join("out.h5");
+    std::fs::write(&result, "precious").unwrap();
+    let resume = || folder.command(&["resume", "out.h5", "--max-wall", "0"]).output().unwrap();
+    let refused = resume();
+    assert_eq!(code(&refused), 5, "{}", said(&refused));
+    assert!(said(&refused).contains("move it away"), "{}", said(&refused));
+    assert_eq!(std::fs::read_to_string(&result).unwrap(), "precious");
+    std::fs::remove_file(&result).unwrap();
+    assert_eq!(code(&resume()), 6);
 }

@@ -70,8 +70,12 @@ impl Conduct {
         let mut saving = Saving { pair, interval: self.checkpoint, missed: &mut warn };
         let mut ended = run_saving(simulation, &mut reporter, &mut saving);
         reporter.finish();
+        if saving.pair.is_of_another_run() {
+            // Between the result and the end of those checkpoints somebody might go on from them. If this fails, they only go later.
+            drop(saving.pair.keep(&ended));
+        }
         let output = saving.pair.result().to_path_buf();
-        if let Err(reason) = hdf5_file::write_timed(&mut ended.record, &output, replace) {
+        if let Err(reason) = hdf5_file::write_timed(&mut ended.record, saving.pair.target(), replace) {
             return Err(unwritten(reason, &ended, &mut saving));
         }
         let Ended { record, last, .. } = ended;

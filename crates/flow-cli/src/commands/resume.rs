@@ -1,5 +1,7 @@
 //! `curveflow resume OUT.h5`: go on with a run that was stopped.
 
+use std::fs::File;
+use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use flow_core::output::StorageError;
@@ -12,6 +14,9 @@ use super::info;
 use super::standing::Standing;
 use crate::error::CliError;
 use crate::print::{self, counted};
+
+/// How a result file begins.
+const HDF5: &[u8; 8] = b"\x89HDF\r\n\x1a\n";
 
 /// Go on with a run that was stopped, from its checkpoint.
 #[derive(Debug, clap::Args)]
@@ -36,6 +41,7 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
 
 /// Goes on from what was found.
 pub fn go_on(conduct: &Conduct, outset: Outset, found: Found, pair: Pair) -> Result<(), CliError> {
+    check_way(pair.result())?;
     check_writable(pair.result(), true)?;
     if let Some(damaged) = &found.damaged {
         print::talk(&format!(
@@ -53,6 +59,16 @@ pub fn go_on(conduct: &Conduct, outset: Outset, found: Found, pair: Pair) -> Res
     }
     let simulation = found.checkpoint.simulation(&found.path)?;
     conduct.run(outset, simulation, pair, true)
+}
+
+/// Fails if something else than a result has come to where that of the run belongs: nobody has asked to replace it.
+fn check_way(path: &Path) -> Result<(), StorageError> {
+    let mut start = [0; HDF5.len()];
+    match File::open(path).and_then(|mut file| file.read_exact(&mut start)) {
+        Ok(()) if start == *HDF5 => Ok(()),
+        Err(reason) if !matches!(reason.kind(), ErrorKind::UnexpectedEof) => Ok(()), // not there, or for others to say
+        _ => Err(StorageError::InTheWay { path: path.to_path_buf() }),
+    }
 }
 
 /// Says how the run of `record` ended, without a checkpoint to go on from.

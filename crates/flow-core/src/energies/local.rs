@@ -5,8 +5,8 @@ use crate::expression::{Expression, ExpressionError, Program};
 
 /// A local density from an expression, differentiated by the program.
 ///
-/// What it is without slopes is a density at the nodes, like any other, so that what varies from node to node has its full cost; what
-/// slopes add is one at the flux points.
+/// Without slopes it is a density at the nodes, like any other. With slopes it is one at the flux points, but for what depends on fields
+/// whose slopes do not occur: what varies from node to node there has no cost between them, and is a density at the nodes too.
 #[derive(Clone, Debug)]
 pub struct Local {
     plain: Option<Density>,
@@ -29,7 +29,12 @@ impl Local {
         assert!(2 * fields <= MOST_VARIABLES, "at most {} fields", MOST_VARIABLES / 2);
         let arity = expression.arity();
         assert!(arity <= 2 * fields, "an energy of {arity} variables on {fields} fields and their slopes");
-        let [plain, of_slopes] = expression.split_from(fields)?;
+        let has_slope = |field: usize| expression.depends_on(fields + field);
+        let [plain, of_slopes] = if (0..fields).any(has_slope) {
+            expression.split_from(fields, &|field| !has_slope(field))?
+        } else {
+            [Some(expression.clone()), None]
+        };
         let density = |part: Option<Expression>, variables| {
             part.map(|part| Density::new(&part, variables, nodes)).transpose()
         };

@@ -47,15 +47,19 @@ impl Expression {
         Ok(Self { text, variables: self.variables.clone(), nodes })
     }
 
-    /// The expression as the sum of a function without the variables from index `first` on, its value where they are zero, and of what
-    /// these add; none where that is zero. What would get a pole or a corner without them is in the second part as it stands.
+    /// The expression as the sum of a function without the variables from index `first` on, the slopes, and of the rest; none where that
+    /// is zero. The first has what stands beside slopes and depends on variables that are `bare`, which have none in the expression.
     ///
     /// Their [`text`](Self::text) is that of `self`.
     /// # Errors
     /// [`ExpressionError::TooManyTerms`] if the parts grow beyond bounds.
-    pub fn split_from(&self, first: usize) -> Result<[Option<Self>; 2], ExpressionError> {
+    pub fn split_from(
+        &self,
+        first: usize,
+        bare: &dyn Fn(usize) -> bool,
+    ) -> Result<[Option<Self>; 2], ExpressionError> {
         let part = |nodes| Self { text: self.text.clone(), variables: self.variables.clone(), nodes };
-        Ok(split(&self.nodes, first)?.map(|nodes| nodes.map(part)))
+        Ok(split(&self.nodes, first, bare)?.map(|nodes| nodes.map(part)))
     }
 
     /// Whether the variable at index `variable` occurs in the expression.

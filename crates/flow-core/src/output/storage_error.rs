@@ -81,6 +81,10 @@ pub enum StorageError {
     #[error("{}: a run to this file was stopped before its end, at t = {time:.6e} (step {steps}); go on with `resume`, \
              choose another name, or replace it (--replace, replace=True)", .path.display())]
     Unfinished { path: PathBuf, steps: u64, time: f64 },
+    /// Something else has come to where a run that goes on would write its result.
+    #[error("{}: is no result file, though checkpoints of a run lie beside it; move it away, then go on with `resume`",
+            .path.display())]
+    InTheWay { path: PathBuf },
     /// There is nothing to go on from.
     #[error("{}: has no checkpoint to go on from; checkpoints lie beside the result file, give its name as in `run -o`",
             .path.display())]

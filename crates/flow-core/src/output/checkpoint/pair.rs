@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::file::read;
 use super::format::{Checkpoint, encode, encode_ended};
 use super::saving::Ended;
-use crate::output::links::beside;
+use crate::output::links::{beside, followed};
 use crate::output::{Operation, StorageError, atomic_file};
 use crate::run::Simulation;
 
@@ -17,6 +17,8 @@ const SUFFIXES: [&str; 2] = [".checkpoint-a", ".checkpoint-b"];
 #[derive(Clone, Debug)]
 pub struct Pair {
     result: PathBuf,
+    /// The file that `result` led to at the start.
+    target: PathBuf,
     paths: [PathBuf; 2],
     /// Which one is written next.
     next: usize,
@@ -40,7 +42,7 @@ impl Pair {
     #[must_use]
     pub fn beside(result: &Path) -> Self {
         let paths = files(result);
-        Self { result: result.to_path_buf(), paths, next: 0, superseded: false }
+        Self { result: result.to_path_buf(), target: followed(result), paths, next: 0, superseded: false }
     }
 
     /// The newest checkpoint, if there is any; the next one is then written to the other file.
@@ -136,7 +138,14 @@ impl Pair {
         self.superseded
     }
 
-    /// The result file.
+    /// The file that the result is to be written to: where its name led when the lock was taken, also if that is a link to another
+    /// file by now.
+    #[must_use]
+    pub fn target(&self) -> &Path {
+        &self.target
+    }
+
+    /// The result file, as it was named.
     #[must_use]
     pub fn result(&self) -> &Path {
         &self.result
