@@ -56,7 +56,7 @@ impl Adaptation {
             let part_on = |nodes| unresolved(layout, &trial, nodes, self.families[usize::from(spread)]);
             let too_few = (nodes as f64) < equidistant * sparsest(grading.as_ref());
             let part = if too_few { f64::INFINITY } else { part_on(nodes) };
-            let fewer = fewer(nodes).map(|fewer| (fewer, part_on(fewer)));
+            let fewer = fewer(nodes).filter(|_| self.counts).map(|fewer| (fewer, part_on(fewer)));
             let mesh = Mesh { nodes, samples: spread.then_some(samples) };
             let plan = Plan { mesh, way: Way::Regraded(grading, Box::new(way)) };
             Some(Trial { part, fewer, plan })
