@@ -1,12 +1,10 @@
 //! `curveflow resume OUT.h5`: go on with a run that was stopped.
 
-use std::fs::File;
-use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-use flow_core::output::StorageError;
 use flow_core::output::atomic_file::check_writable;
 use flow_core::output::checkpoint::{Found, Pair};
+use flow_core::output::{StorageError, hdf5_file};
 use flow_core::run::{Record, StopReason};
 
 use super::conduct::{Conduct, Outset, say_doubts};
@@ -14,9 +12,6 @@ use super::info;
 use super::standing::Standing;
 use crate::error::CliError;
 use crate::print::{self, counted};
-
-/// How a result file begins.
-const HDF5: &[u8; 8] = b"\x89HDF\r\n\x1a\n";
 
 /// Go on with a run that was stopped, from its checkpoint.
 #[derive(Debug, clap::Args)]
@@ -63,11 +58,9 @@ pub fn go_on(conduct: &Conduct, outset: Outset, found: Found, pair: Pair) -> Res
 
 /// Fails if something else than a result has come to where that of the run belongs: nobody has asked to replace it.
 fn check_way(path: &Path) -> Result<(), StorageError> {
-    let mut start = [0; HDF5.len()];
-    match File::open(path).and_then(|mut file| file.read_exact(&mut start)) {
-        Ok(()) if start == *HDF5 => Ok(()),
-        Err(reason) if !matches!(reason.kind(), ErrorKind::UnexpectedEof) => Ok(()), // not there, or for others to say
-        _ => Err(StorageError::InTheWay { path: path.to_path_buf() }),
+    match hdf5_file::is_hdf5(path) {
+        Ok(false) => Err(StorageError::InTheWay { path: path.to_path_buf() }),
+        _ => Ok(()), // if it is not there, or what else is wrong with it is for others to say
     }
 }
 

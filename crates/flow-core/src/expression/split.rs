@@ -125,9 +125,8 @@ impl Rules<'_> {
         if subtracted.is_some_and(|subtracted| subtracted > MOST_SUBTRACTED) {
             return Ok(Parts::whole(id));
         }
-        let mut times =
-            |part: Option<NodeId>| part.map(|part| self.graph.binary(operator, part, factor)).transpose();
-        Ok(Parts { without: times(parts.without)?, added: times(parts.added)?, subtracted })
+        let [without, added] = self.scaled(operator, [parts.without, parts.added], factor)?;
+        Ok(Parts { without, added, subtracted })
     }
 
     /// Of the square `id` of what has the parts `base`.
@@ -184,15 +183,16 @@ impl Rules<'_> {
         }
     }
 
+    /// Both parts times or over `factor`.
     fn scaled(
         &mut self,
         operator: Operator,
-        [bare, rest]: [Option<NodeId>; 2],
+        [one, other]: [Option<NodeId>; 2],
         factor: NodeId,
     ) -> Result<[Option<NodeId>; 2], ExpressionError> {
         let mut times =
             |part: Option<NodeId>| part.map(|part| self.graph.binary(operator, part, factor)).transpose();
-        Ok([times(bare)?, times(rest)?])
+        Ok([times(one)?, times(other)?])
     }
 
     fn sum(&mut self, a: Option<NodeId>, b: Option<NodeId>) -> Part {

@@ -55,8 +55,8 @@ fn advice(cause: Rejection) -> &'static str {
              0), or the curve its own: keep the expressions finite where the flow goes, or try more nodes"
         }
         _ => {
-            "the flow may end here (a curve shrinking to a point, an ill-posed energy, an expression at the edge of its range), or the tolerance asks for more than double \
-             precision: try a larger tolerance or more nodes"
+            "the flow may end here (a curve shrinking to a point, an ill-posed energy, an expression at the edge of its range), or \
+             the tolerance asks for more than double precision: try a larger tolerance or more nodes"
         }
     }
 }

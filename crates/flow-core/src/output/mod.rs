@@ -9,6 +9,7 @@ mod links;
 pub mod page;
 #[cfg(feature = "picture")]
 pub mod picture;
+mod signature;
 mod storage_error;
 mod temporary;
 

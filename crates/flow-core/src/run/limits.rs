@@ -62,9 +62,21 @@ pub(super) fn check_frames(
     extra: usize,
     limit: f64,
 ) -> Result<(), SetupError> {
-    let bytes = frame_bytes(frames, layout, extra);
+    check_frame_bytes(frames, layout.nodes(), frame_bytes(frames, layout, extra), limit)
+}
+
+/// The same for frames on `nodes` nodes that take `bytes`.
+///
+/// # Errors
+/// [`SetupError::TooMuchOutput`].
+pub(super) fn check_frame_bytes(
+    frames: usize,
+    nodes: usize,
+    bytes: f64,
+    limit: f64,
+) -> Result<(), SetupError> {
     if bytes > limit {
-        return Err(SetupError::TooMuchOutput { frames, nodes: layout.nodes(), bytes, limit });
+        return Err(SetupError::TooMuchOutput { frames, nodes, bytes, limit });
     }
     Ok(())
 }

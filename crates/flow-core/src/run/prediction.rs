@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::limits::{MOST_FRAME_BYTES, file_bytes, frame_bytes, frames, matrix_bytes};
+use super::limits::{MOST_FRAME_BYTES, check_frame_bytes, file_bytes, frame_bytes, frames, matrix_bytes};
 use super::observer::Quiet;
 use super::record::{Record, StopReason};
 use super::resolution::{MOST_NODES, fronts, size_above};
@@ -47,9 +47,7 @@ impl Prediction {
     /// # Errors
     /// [`SetupError::TooMuchOutput`], with which such a run would end.
     pub fn check_frames(&self) -> Result<(), SetupError> {
-        let Self { frames, most_nodes: nodes, frame_bytes: bytes, .. } = *self;
-        let limit = MOST_FRAME_BYTES;
-        if bytes > limit { Err(SetupError::TooMuchOutput { frames, nodes, bytes, limit }) } else { Ok(()) }
+        check_frame_bytes(self.frames, self.most_nodes, self.frame_bytes, MOST_FRAME_BYTES)
     }
 }
 

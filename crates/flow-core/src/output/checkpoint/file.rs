@@ -1,10 +1,10 @@
 //! One checkpoint in a file of any name.
 
-use std::fs::{self, File};
-use std::io::Read;
+use std::fs;
 use std::path::Path;
 
 use super::format::{Checkpoint, MAGIC, decode, encode};
+use crate::output::signature::begins_with;
 use crate::output::{Operation, StorageError, atomic_file};
 use crate::run::Simulation;
 
@@ -30,8 +30,5 @@ pub fn write(simulation: &Simulation, path: &Path, replace: bool) -> Result<(), 
 }
 
 fn is_checkpoint(path: &Path) -> bool {
-    let mut start = [0; MAGIC.len()];
-    fs::metadata(path).is_ok_and(|found| found.is_file())
-        && File::open(path).and_then(|mut file| file.read_exact(&mut start)).is_ok()
-        && start == *MAGIC
+    fs::metadata(path).is_ok_and(|found| found.is_file()) && begins_with(path, MAGIC).unwrap_or(false)
 }

@@ -41,8 +41,8 @@ impl Pair {
     /// The files for the result file `result`, beside the file that it leads to if it is a link; nothing is written.
     #[must_use]
     pub fn beside(result: &Path) -> Self {
-        let paths = files(result);
-        Self { result: result.to_path_buf(), target: followed(result), paths, next: 0, superseded: false }
+        let target = followed(result);
+        Self { result: result.to_path_buf(), paths: files(&target), target, next: 0, superseded: false }
     }
 
     /// The newest checkpoint, if there is any; the next one is then written to the other file.

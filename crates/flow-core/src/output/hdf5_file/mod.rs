@@ -12,5 +12,5 @@ mod seconds;
 mod writer;
 
 pub use layout::CONVENTIONS;
-pub use reader::read;
+pub use reader::{is_hdf5, read};
 pub use writer::{to_bytes, write, write_timed};

@@ -1,7 +1,7 @@
 //! Reads a result file back into a [`Record`], recognising files that are foreign, truncated or damaged.
 
 use std::fs;
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::Path;
 
 use hdf5_metno::types::VarLenUnicode;
@@ -15,6 +15,7 @@ use super::layout::{
 use super::numbers;
 use super::provenance::{checksum, rejections_name};
 use super::seconds;
+use crate::output::signature::begins_with;
 use crate::output::{Operation, StorageError};
 use crate::run::{Counters, Frame, Provenance, Record, Rejections, Seconds, StepLog, StopReason};
 
@@ -23,6 +24,13 @@ const SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
 
 /// Bytes in which every HDF5 file says how long its lengths are.
 const FIRST_BLOCK: usize = 48;
+
+/// Whether the file `path` is HDF5, by its first bytes.
+/// # Errors
+/// What the system says if it cannot be opened or read.
+pub fn is_hdf5(path: &Path) -> io::Result<bool> {
+    begins_with(path, &SIGNATURE)
+}
 
 /// Reads the result file `path`.
 /// # Errors

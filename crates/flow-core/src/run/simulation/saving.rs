@@ -5,7 +5,6 @@ use std::time::Instant;
 use super::Simulation;
 use crate::geometry::Layout;
 use crate::integrator::Stepper;
-use crate::run::frames::frame;
 use crate::run::limits::{MOST_FRAME_BYTES, check_frames};
 use crate::run::setup_error::SetupError;
 
@@ -36,15 +35,8 @@ impl Simulation {
             let clock = Instant::now();
             self.check_room(1, self.layout())?;
             let integrals = self.integration.stepper().interpolate(time, &mut self.scratch);
-            self.record.frames.push(frame(
-                &mut self.membrane,
-                &mut self.diagnostics,
-                time,
-                &mut self.scratch,
-                integrals,
-                &self.start,
-                None,
-            ));
+            let frame = self.frame_of_scratch(time, integrals, None);
+            self.record.frames.push(frame);
             self.scheduled_frames += 1;
             self.frame_room.nodes = self.frame_room.nodes.max(self.layout().nodes());
             self.clocks.frames += clock.elapsed().as_secs_f64();

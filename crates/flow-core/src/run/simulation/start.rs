@@ -176,7 +176,6 @@ impl Setup {
         {
             return Err(error);
         }
-        self.membrane.flow().set_current(&self.state);
         Ok((energy, dissipation, integral_rates))
     }
 
@@ -187,7 +186,9 @@ impl Setup {
         let ahead = ahead(&mut self.membrane, &self.state);
         let flow = self.membrane.flow();
         flow.set_current(&ahead);
-        flow.has_finite_second_derivatives()
+        let leaves = flow.has_finite_second_derivatives();
+        flow.set_current(&self.state);
+        leaves
     }
 
     /// Names the term that is not finite on the initial data, or says what it refuses them for.
