@@ -113,7 +113,7 @@ fn a_run_that_is_over_can_be_saved() {
     let mut saving = Saving { pair: Pair::beside(&folder.result()), interval, missed: &mut |_| {} };
     let ended = run_saving(Simulation::new(&scene()).unwrap(), &mut Quiet, &mut saving);
     assert!(ended.last.is_none() && saving.pair.newest().unwrap().is_none());
-    saving.pair.keep(&ended).unwrap();
+    ended.save(&mut saving.pair).unwrap();
     let found = saving.pair.newest().unwrap().unwrap();
     let again = run_saving(found.checkpoint.simulation(&found.path).unwrap(), &mut Quiet, &mut saving);
     assert_eq!(again.record.stop_reason, StopReason::EndTime);

@@ -72,7 +72,7 @@ impl Conduct {
         reporter.finish();
         if saving.pair.is_of_another_run() {
             // Between the result and the end of those checkpoints somebody might go on from them. If this fails, they only go later.
-            drop(saving.pair.keep(&ended));
+            drop(ended.save(&mut saving.pair));
         }
         let output = saving.pair.result().to_path_buf();
         if let Err(reason) = hdf5_file::write_timed(&mut ended.record, saving.pair.target(), replace) {
@@ -114,7 +114,7 @@ impl Conduct {
 
 /// What to say of a result that could not be written: whether its run is saved, or can be now.
 fn unwritten(reason: StorageError, ended: &Ended, saving: &mut Saving) -> CliError {
-    let saved = matches!(ended.last, Some(Ok(()))) || saving.pair.keep(ended).is_ok();
+    let saved = matches!(ended.last, Some(Ok(()))) || ended.save(&mut saving.pair).is_ok();
     let output = saving.pair.result().to_path_buf();
     if saved { CliError::Unwritten { reason, output } } else { reason.into() }
 }

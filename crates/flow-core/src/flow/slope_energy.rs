@@ -3,7 +3,7 @@
 //! sawtooth has no slope, costs nothing, and grows. On graded nodes L⟨we′(φ, D₊φ/(Lw))⟩, and 1/w is left to the sum. Built only if a term has it. See `THEORY.md`, eq. (D6).
 
 use super::curve_fields::CurveFields;
-use super::energy_sum::IntrinsicGradient;
+use super::intrinsic_gradient::IntrinsicGradient;
 use crate::energies::{EnergyTerm, Fields, Jet, Order};
 use crate::geometry::vectors::{self, mean, mean_of_product, mean_of_triple_product};
 use crate::geometry::{Complex64, Layout, PeriodicGrid};

@@ -2,7 +2,6 @@
 
 use super::grading_error::GradingError;
 use super::grid::{Complex64, PeriodicGrid};
-use super::midpoints::at_midpoints as interpolated;
 use super::vectors::{mean, mean_of_product, multiply, scale};
 
 /// Largest error, relative to the value, of the grading interpolated to the midpoints.
@@ -61,7 +60,7 @@ impl Grading {
         let mut grid = PeriodicGrid::new(nodes);
         let mut spectrum = vec![Complex64::default(); grid.modes()];
         grid.transform(&weight, &mut spectrum);
-        let mut shift = interpolated(&mut grid, &spectrum);
+        let mut shift = grid.at_midpoints(&spectrum);
         for (i, (between, value)) in shift.iter().zip(&at_midpoints).enumerate() {
             let error = (between / value - 1.0).abs();
             if error > RESOLVED {

@@ -67,6 +67,14 @@ impl PeriodicGrid {
         Complex64::cis(0.5 * self.wave_number(mode) / self.nodes as f64)
     }
 
+    /// Values halfway between the nodes of the polynomial with the coefficients `spectrum`.
+    pub(super) fn at_midpoints(&mut self, spectrum: &[Complex64]) -> Vec<f64> {
+        let half: Vec<Complex64> = spectrum.iter().enumerate().map(|(j, w)| w * self.half_step(j)).collect();
+        let mut values = vec![0.0; self.nodes];
+        self.synthesise(&half, &mut values);
+        values
+    }
+
     /// How often a mode of the half spectrum stands in the full one: 1 for the mean and the sawtooth, else 2.
     #[must_use]
     pub fn multiplicity(&self, mode: usize) -> f64 {

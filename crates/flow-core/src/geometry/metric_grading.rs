@@ -3,7 +3,6 @@
 use super::grading::Grading;
 use super::grading_error::GradingError;
 use super::grid::{Complex64, PeriodicGrid};
-use super::midpoints::at_midpoints;
 
 impl Grading {
     /// The grading w = g/⟨g⟩ of the nodal `metric` g, at the midpoints by trigonometric interpolation.
@@ -19,7 +18,7 @@ impl Grading {
         let mut grid = PeriodicGrid::new(nodes);
         let mut spectrum = vec![Complex64::default(); grid.modes()];
         grid.transform(metric, &mut spectrum);
-        let midpoints = at_midpoints(&mut grid, &spectrum);
+        let midpoints = grid.at_midpoints(&spectrum);
         let samples: Vec<f64> =
             metric.iter().zip(&midpoints).flat_map(|(node, next)| [*node, *next]).collect();
         Self::new(&samples)

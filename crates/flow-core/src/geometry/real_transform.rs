@@ -13,8 +13,8 @@ use std::sync::Arc;
 use multiversion::multiversion;
 use rustfft::{Fft, FftPlanner};
 
-use super::grid::Complex64;
 use super::kept::Kept;
+use rustfft::num_complex::Complex64;
 
 /// Plans and scratch for one number of values.
 #[derive(Clone)]

@@ -5,7 +5,7 @@
 
 use multiversion::multiversion;
 
-use super::grid::Complex64;
+use rustfft::num_complex::Complex64;
 
 const LANES: usize = 8;
 

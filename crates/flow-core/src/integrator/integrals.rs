@@ -4,9 +4,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::INTEGRALS;
 use super::clock::stretched;
 
+/// Number of integrals that are carried along with the state.
+pub const INTEGRALS: usize = 4;
 /// Values that a polynomial goes through at most.
 const POINTS: usize = 7;
 /// … and at least, once there are so many.

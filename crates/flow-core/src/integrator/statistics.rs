@@ -2,6 +2,19 @@
 
 use serde::{Deserialize, Serialize};
 
+/// Why an attempt at a step failed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rejection {
+    /// The local error was above the tolerance, or the dissipation did not account for the energy lost.
+    Error,
+    /// The implicit solve did not converge.
+    Solver,
+    /// The energy rose.
+    EnergyRise,
+    /// A value was NaN or infinite.
+    NotFinite,
+}
+
 /// Attempts at a step that were thrown away, by cause.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Rejections {
@@ -23,12 +36,12 @@ impl Rejections {
     }
 
     /// Counts one rejection.
-    pub fn count(&mut self, cause: super::Rejection) {
+    pub fn count(&mut self, cause: Rejection) {
         *match cause {
-            super::Rejection::Error => &mut self.error,
-            super::Rejection::Solver => &mut self.solver,
-            super::Rejection::EnergyRise => &mut self.energy_rise,
-            super::Rejection::NotFinite => &mut self.not_finite,
+            Rejection::Error => &mut self.error,
+            Rejection::Solver => &mut self.solver,
+            Rejection::EnergyRise => &mut self.energy_rise,
+            Rejection::NotFinite => &mut self.not_finite,
         } += 1;
     }
 }

@@ -8,17 +8,8 @@
 use std::ops::Range;
 
 use super::band_factors::{Factors, LANES, Lane, eliminate, substitute_backward, substitute_forward};
+use super::factorisation_error::FactorisationError;
 use super::small_lu::SmallLu;
-
-/// The matrix has no usable LU factorisation.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("the banded matrix is singular to working precision: pivot {pivot:.3e} in row {row}")]
-pub struct FactorisationError {
-    /// Row of the pivot.
-    pub row: usize,
-    /// Its value.
-    pub pivot: f64,
-}
 
 /// A cyclic matrix with `B` bands on each side of the diagonal.
 ///

@@ -6,8 +6,9 @@
 
 use std::fmt::Debug;
 
-use super::cyclic_banded::{CyclicBanded, FactorisationError};
+use super::cyclic_banded::CyclicBanded;
 use super::derivative::DerivativeFamily;
+use super::factorisation_error::FactorisationError;
 use super::half_stencil::{add_convolution, half_stencil, pad, square, wrap};
 
 /// H has no usable inverse.

@@ -3,6 +3,7 @@
 mod band_factors;
 mod cyclic_banded;
 mod derivative;
+mod factorisation_error;
 mod graded_helmholtz;
 mod graded_laplacian;
 mod half_stencil;
@@ -10,8 +11,9 @@ mod helmholtz;
 mod small_lu;
 
 pub use band_factors::{LANES, Lane};
-pub use cyclic_banded::{CyclicBanded, FactorisationError};
+pub use cyclic_banded::CyclicBanded;
 pub use derivative::{Derivative, DerivativeFamily};
+pub use factorisation_error::FactorisationError;
 pub use graded_helmholtz::{CurveHelmholtz, GradedHelmholtz};
 pub use graded_laplacian::GradedLaplacian;
 pub use helmholtz::{Helmholtz, HelmholtzError};

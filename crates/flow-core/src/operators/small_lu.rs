@@ -2,7 +2,7 @@
 
 use multiversion::multiversion;
 
-use super::cyclic_banded::FactorisationError;
+use super::factorisation_error::FactorisationError;
 
 /// A square matrix and its factors.
 #[derive(Clone, Debug)]

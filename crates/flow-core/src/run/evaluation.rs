@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
+use super::assembly;
 use super::own_terms::OwnTerms;
 use super::scene::{Gauge, Nodes, Scene};
-use super::setup::{self, Setup};
+use super::setup::Setup;
 use super::setup_error::SetupError;
 use crate::flow::{MetricRole, NodalError, check, nodal_state};
 use crate::geometry::Grading;
@@ -58,7 +59,7 @@ pub fn evaluate(
     let uniform = scene.flow.gauge.metric() == MetricRole::Uniform;
     let grading =
         if uniform { None } else { Some(Arc::new(Grading::of_metric(metric).map_err(NodalError::from)?)) };
-    let (mut flow, _) = setup::flow(&scene, &initial, nodes, grading)?;
+    let (mut flow, _) = assembly::flow(&scene, &initial, nodes, grading)?;
     let state = nodal_state(curvature, metric, density, flow.layout());
     let energy = flow.dissipation_at(&state).energy;
     Ok(Evaluation { energy, normal_force: flow.normal_force().to_vec() })

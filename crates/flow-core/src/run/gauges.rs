@@ -3,13 +3,13 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
+use super::assembly;
 use super::choices::linear_solver;
 use super::diagnostics::Diagnostics;
 use super::energy_terms::Initial;
 use super::membrane::Membrane;
 use super::mesh::Mesh;
 use super::scene::Scene;
-use super::setup;
 use super::setup_error::SetupError;
 use crate::flow::{Regraded, regrade};
 use crate::geometry::Grading;
@@ -101,7 +101,7 @@ impl Gauges {
         grading: Option<Arc<Grading>>,
         turning_number: i32,
     ) -> Result<(Membrane, Diagnostics), SetupError> {
-        let (flow, diagnostics) = setup::flow(&self.scene, &self.initial, nodes, grading)?;
+        let (flow, diagnostics) = assembly::flow(&self.scene, &self.initial, nodes, grading)?;
         let solver = linear_solver(self.scene.accuracy.linear_solver);
         Ok((Membrane::new(flow, solver, turning_number, 0.0), diagnostics))
     }

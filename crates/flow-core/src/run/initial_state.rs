@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::adaptation::unresolved_bound;
+use super::assembly::layout;
 use super::choices::family;
 use super::energy_terms::{Initial, energy_terms};
 use super::mesh::Mesh;
@@ -10,7 +11,6 @@ use super::missed::missed;
 use super::own_terms::OwnTerms;
 use super::resolution::{self, MOST_NODES, needed_nodes, size_above, unresolved};
 use super::scene::{Nodes, Scene};
-use super::setup::layout;
 use super::setup_error::SetupError;
 use crate::flow::MetricRole;
 use crate::geometry::shapes::{ByArcLength, Resampled};

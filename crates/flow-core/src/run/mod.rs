@@ -1,6 +1,7 @@
 //! From a scene to a finished run.
 
 mod adaptation;
+mod assembly;
 mod choices;
 mod culprit;
 mod diagnostics;

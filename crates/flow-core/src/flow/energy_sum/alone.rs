@@ -4,8 +4,9 @@ use std::mem;
 use std::time::Instant;
 
 use super::super::curve_fields::CurveFields;
-use super::{EnergySum, IntrinsicGradient};
+use super::EnergySum;
 use crate::energies::EnergyTerm;
+use crate::flow::IntrinsicGradient;
 
 /// Seconds that evaluations of the energy take with some terms.
 #[derive(Clone, Copy, Debug)]

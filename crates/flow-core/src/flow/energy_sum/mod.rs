@@ -12,6 +12,7 @@ mod stiffness;
 
 use super::curve_fields::CurveFields;
 use super::graded_energy::{GradedEnergy, add_spectrum, mean_product};
+use super::intrinsic_gradient::IntrinsicGradient;
 use super::moving_metric_energy::MovingMetricEnergy;
 use super::shape_energy::ShapeEnergy;
 use super::slope_energy::SlopeEnergy;
@@ -24,15 +25,6 @@ use crate::operators::Derivative;
 
 pub use alone::TermCost;
 pub use not_finite::{NotFinite, TermPart, TermPlace};
-
-/// Gradient of the energy, as the flow map takes it.
-#[derive(Clone, Debug)]
-pub struct IntrinsicGradient {
-    /// Variational derivatives ∂_κ𝓕, ∂_ρ𝓕 as spectra, one per field.
-    pub spectra: Vec<Complex64>,
-    /// ∂𝓕/∂|Γ| at fixed K and m.
-    pub by_length: f64,
-}
 
 /// All terms of a scene.
 #[derive(Debug)]

@@ -1,8 +1,9 @@
 //! Which value of which term is no number, or too large, and where.
 
 use super::super::curve_fields::CurveFields;
-use super::{EnergySum, IntrinsicGradient};
+use super::EnergySum;
 use crate::energies::{Fields, Jet, LengthJet, Order};
+use crate::flow::IntrinsicGradient;
 use crate::geometry::Complex64;
 
 /// The dissipation holds the squares of first derivatives: beyond this they overflow.

@@ -4,8 +4,9 @@ use std::f64::consts::TAU;
 
 use super::GradientFlow;
 use crate::flow::curve_fields::CurveFields;
-use crate::flow::energy_sum::{EnergySum, IntrinsicGradient};
+use crate::flow::energy_sum::EnergySum;
 use crate::flow::graded_energy::mean_product;
+use crate::flow::intrinsic_gradient::IntrinsicGradient;
 use crate::geometry::vectors::{mean, mean_of_product, scale};
 use crate::geometry::{Complex64, Layout, PeriodicGrid, SpectralLayout};
 use crate::operators::Derivative;

@@ -12,9 +12,10 @@ use implicit::drive;
 
 use super::curve_fields::CurveFields;
 use super::density_mobility::DensityMobility;
-use super::energy_sum::{EnergySum, IntrinsicGradient};
+use super::energy_sum::EnergySum;
 use super::flow_map::FlowMap;
 use super::graded_energy::add_spectrum;
+use super::intrinsic_gradient::IntrinsicGradient;
 use super::normal_mobility::{MobilityError, NormalMobility};
 use crate::geometry::{Complex64, Layout, SpectralLayout};
 

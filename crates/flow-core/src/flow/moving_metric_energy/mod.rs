@@ -6,7 +6,7 @@
 mod second_derivative;
 
 use super::curve_fields::CurveFields;
-use super::energy_sum::IntrinsicGradient;
+use super::intrinsic_gradient::IntrinsicGradient;
 use crate::energies::{EnergyTerm, Fields, Jet, LengthJet, Order};
 use crate::geometry::vectors::{add_scaled, apply_symbol, dot, mean, multiply, multiply_into, scale};
 use crate::geometry::{Complex64, Grading, Layout, PeriodicGrid};

@@ -1,7 +1,7 @@
 //! The second derivative.
 
 use super::super::curve_fields::CurveFields;
-use super::super::energy_sum::IntrinsicGradient;
+use super::super::intrinsic_gradient::IntrinsicGradient;
 use super::MovingMetricEnergy;
 use crate::energies::{Jet, LengthJet};
 use crate::geometry::vectors::{add_product, add_scaled, apply_symbol, multiply, multiply_into, scale};

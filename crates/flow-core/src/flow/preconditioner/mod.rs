@@ -1,13 +1,11 @@
 //! Approximate inverses of I − γJ, J = −𝓚 Hess `𝓕_h`. See `THEORY.md`, section 5.
 
 mod banded;
-mod compact_laplacian;
 mod dense;
 mod fourier;
 mod length_coupling;
-mod local_spacing;
-mod material;
 mod metric_coupling;
+mod motion;
 mod residual_weights;
 mod stiff_curvature;
 
@@ -21,6 +19,7 @@ use fourier::FourierSymbol;
 pub use fourier::mobility_symbol;
 use length_coupling::LengthCoupling;
 use metric_coupling::MetricCoupling;
+use motion::carries;
 pub use residual_weights::ResidualWeights;
 use stiff_curvature::StiffCurvature;
 
@@ -170,17 +169,4 @@ impl Preconditioner {
             metric.make_motion(flow, r);
         }
     }
-}
-
-/// Whether what the motion of the curve does to the densities is of the order of their own mobility.
-///
-/// To leading order A = T(A₀, 0) with the rate of the curvature A₀ = −|Γ|`Δ_s` and T = (1, 0; A₁A₀⁻¹, 1), so that 𝓚 is
-/// T diag(`A₀𝓑A₀ᵀ`, 𝓖)Tᵀ and T⁻¹(I − γJ)T has no coupling through the motion. Where 𝓖 is of order 2 and 𝓑 of order 0 the
-/// coupling is small without that. See `THEORY.md`, eq. (O6).
-fn carries(flow: &GradientFlow) -> bool {
-    if flow.layout().metric().is_some() {
-        return false; // nodes of a metric that moves carry their densities anyhow
-    }
-    let least = 2 + flow.normal_mobility().order();
-    flow.density_mobilities().iter().any(|density| density.order() < least)
 }

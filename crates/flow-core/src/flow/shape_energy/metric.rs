@@ -1,6 +1,6 @@
 //! The derivatives by the metric, where that is a field. See `THEORY.md`, eq. (D10).
 
-use super::super::energy_sum::IntrinsicGradient;
+use super::super::intrinsic_gradient::IntrinsicGradient;
 use super::ShapeEnergy;
 use crate::energies::Order;
 use crate::geometry::vectors::mean_of_product;

@@ -13,7 +13,7 @@ mod sawtooth;
 use sawtooth::Sawtooth;
 
 use super::curve_fields::CurveFields;
-use super::energy_sum::IntrinsicGradient;
+use super::intrinsic_gradient::IntrinsicGradient;
 use crate::energies::{Area, EnergyTerm, Order, ShapeFields};
 use crate::geometry::vectors::{add_scaled, mean, mean_of_product, scale, scale_into};
 use crate::geometry::{Complex64, Embedding, Layout, PeriodicGrid, SpectralLayout};

@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::curve::{Curve, Jet, speed, turning};
+use super::curve::Curve;
 use super::error::ShapeError;
+use super::jet::{Jet, speed, turning};
 use super::quadrature::{POINTS, cumulative, mean};
 
 /// What is known of a curve on its cells; edge i of c is φ = 2πi/c.

@@ -18,6 +18,7 @@
 mod arc_length;
 mod curve;
 mod error;
+mod jet;
 mod points;
 mod quadrature;
 mod resample;

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::curve::Jet;
 use super::error::ShapeError;
+use super::jet::Jet;
 use crate::geometry::{Complex64, PeriodicGrid};
 
 /// Trigonometric interpolation, tabulated on a finer grid and read off it by polynomials.

@@ -3,8 +3,9 @@
 use std::f64::consts::TAU;
 
 use super::arc_length::ArcLength;
-use super::curve::{Curve, Jet, acceleration, speed, turning};
+use super::curve::Curve;
 use super::error::ShapeError;
+use super::jet::{Jet, acceleration, speed, turning};
 use super::quadrature::{POINTS, mean};
 use crate::geometry::Grading;
 

@@ -2,9 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::orders::{HIGHEST_ORDER, MOST_MOMENTS};
 use super::substitution::StepClock;
 use super::sums::Correction;
-use super::{Exponential, HIGHEST_ORDER, MOST_CHANGES, MOST_MOMENTS, weights_at_end};
+use super::{Exponential, MOST_CHANGES, weights_at_end};
 use crate::integrator::Rejection;
 use crate::integrator::clock;
 use crate::integrator::pace::{Next, on_scale};

@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::control::Stiffness;
-use super::{Exponential, HIGHEST_ORDER, MOST_MOMENTS, Moments, OLDEST_PART, StepClock, Substitution};
+use super::orders::{HIGHEST_ORDER, MOST_MOMENTS};
+use super::{Exponential, Moments, OLDEST_PART, StepClock, Substitution};
 use crate::integrator::Problem;
 use crate::integrator::error_norm::ErrorNorm;
 use crate::integrator::history::{History, MOST_POINTS};

@@ -9,6 +9,7 @@
 mod control;
 mod memory;
 mod moments;
+mod orders;
 mod polynomials;
 mod start;
 mod substitution;
@@ -24,17 +25,12 @@ use crate::geometry::vectors::add_scaled_product;
 use control::Stiffness;
 pub use memory::ExponentialMemory;
 use moments::{Moments, moments_at};
+use orders::{FOR_CLOCKS, MOST_MOMENTS};
 use polynomials::{Coefficients, of_last_point, of_new_value};
 pub(super) use start::start;
 use substitution::{StepClock, Substitution};
 use sums::Correction;
 
-/// Most values of N that a prediction goes through.
-const HIGHEST_ORDER: usize = 6;
-/// Moments for polynomials through the value at the prediction and one value more, and for those by other clocks.
-const MOST_MOMENTS: usize = HIGHEST_ORDER + FOR_CLOCKS;
-/// Moments beyond the order that make polynomials in stretched time exact to a part of 1e-6 and less of their highest terms.
-const FOR_CLOCKS: usize = 4;
 /// Changes that are computed at once: the correction, and the differences that tell the error.
 const MOST_CHANGES: usize = 5;
 /// Accepted steps after which Λ is taken anew.

@@ -4,7 +4,7 @@
 
 use multiversion::multiversion;
 
-use super::MOST_MOMENTS;
+use super::orders::MOST_MOMENTS;
 use crate::expression::vector_math::exp;
 
 /// Below this |z| the recursion mᵢ = (i mᵢ₋₁ − 1)/z loses digits, and m of the highest index is summed.

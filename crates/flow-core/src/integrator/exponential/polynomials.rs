@@ -1,6 +1,6 @@
 //! Small polynomials in θ = (t − tₙ)/h, by their coefficients.
 
-use super::MOST_MOMENTS;
+use super::orders::MOST_MOMENTS;
 
 /// Coefficients, lowest first.
 pub type Coefficients = [f64; MOST_MOMENTS];

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-use super::MOST_MOMENTS;
+use super::orders::MOST_MOMENTS;
 use super::polynomials::{Coefficients, lagrange_basis};
 use crate::integrator::clock::stretched;
 
@@ -112,7 +112,7 @@ impl Substitution {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{FOR_CLOCKS, HIGHEST_ORDER};
+    use super::super::orders::{FOR_CLOCKS, HIGHEST_ORDER};
     use super::*;
 
     fn at(polynomial: &Coefficients, x: f64) -> f64 {

@@ -4,8 +4,8 @@
 
 use multiversion::multiversion;
 
-use super::MOST_MOMENTS;
 use super::moments::{Block, LANES};
+use super::orders::MOST_MOMENTS;
 use super::polynomials::Coefficients;
 
 /// Entries of a block of moments, which belong to pairs of them.

@@ -5,8 +5,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use super::file::read;
-use super::format::{Checkpoint, encode, encode_ended};
-use super::saving::Ended;
+use super::format::{Checkpoint, encode};
 use crate::output::links::{beside, followed};
 use crate::output::{Operation, StorageError, atomic_file};
 use crate::run::Simulation;
@@ -105,15 +104,8 @@ impl Pair {
         self.write_bytes(&encode(simulation))
     }
 
-    /// Saves a run that is over, so that its result can be written later.
-    ///
-    /// # Errors
-    /// As for [`Pair::write`].
-    pub fn keep(&mut self, ended: &Ended) -> Result<(), StorageError> {
-        self.write_bytes(&encode_ended(&ended.record, &ended.memory))
-    }
-
-    fn write_bytes(&mut self, bytes: &[u8]) -> Result<(), StorageError> {
+    /// Writes the older of the two files.
+    pub(super) fn write_bytes(&mut self, bytes: &[u8]) -> Result<(), StorageError> {
         if self.superseded {
             // Of two files the one with more steps counts: none of the run before may outlive the first of this one.
             remove(&self.paths[1 - self.next])?;

@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use super::format::encode_ended;
 use super::pair::Pair;
 use crate::output::StorageError;
 use crate::run::{Memory, Observer, Record, Simulation, StopReason};
@@ -25,9 +26,19 @@ pub struct Ended {
     /// What there is of it.
     pub record: Record,
     /// What it takes to go on, or to make the record again.
-    pub(super) memory: Memory,
+    memory: Memory,
     /// Whether a checkpoint of its end was written; none if it is over and was too short to have any.
     pub last: Option<Result<(), StorageError>>,
+}
+
+impl Ended {
+    /// Saves the run that is over in `pair`, so that its result can be written later.
+    ///
+    /// # Errors
+    /// As for [`Pair::write`].
+    pub fn save(&self, pair: &mut Pair) -> Result<(), StorageError> {
+        pair.write_bytes(&encode_ended(&self.record, &self.memory))
+    }
 }
 
 /// Takes the steps of `simulation` to its end, or until `observer` stops it, with a checkpoint now and then. There is one of the end

@@ -1,12 +1,10 @@
 //! One dataset: chunked, with Fletcher32, dimension scales, a long name and units.
 
-use std::borrow::Cow;
-
 use hdf5_image::{attach_scale, set_scale};
 use hdf5_metno::types::VarLenUnicode;
 use hdf5_metno::{Dataset, Extent, Group, H5Type, Location, SimpleExtents};
 
-use super::meanings;
+use super::meanings::{self, Meaning};
 use crate::output::StorageError;
 
 /// Chunks hold about this many values: one read of 512 kB, yet a single frame is cheap.
@@ -16,18 +14,6 @@ const CHUNK_VALUES: usize = 1 << 16;
 pub(super) struct Axis {
     scale: Dataset,
     length: usize,
-}
-
-/// Name and units of a dataset.
-pub(super) struct Meaning {
-    long_name: Cow<'static, str>,
-    units: &'static str,
-}
-
-impl Meaning {
-    pub fn new(long_name: impl Into<Cow<'static, str>>, units: &'static str) -> Self {
-        Self { long_name: long_name.into(), units }
-    }
 }
 
 /// Turns an error of the library into ours, naming what was being built.

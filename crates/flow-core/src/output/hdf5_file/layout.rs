@@ -1,7 +1,6 @@
 //! What is in a result file, once, for the writer and the reader: an entry is named after the Rust field it holds.
 
-use super::dataset::Meaning;
-use super::meanings;
+use super::meanings::{self, Meaning};
 use crate::run::{Counters, EvaluationSeconds, Frame, Record, Rejections, Seconds, StepLog};
 
 /// The attribute `Conventions` of every result file; the number changes when readers must.

@@ -1,6 +1,18 @@
 //! Long names and units of dimensions and of what a scene names: its terms, its densities, and the fields that it asks for.
 
-use super::dataset::Meaning;
+use std::borrow::Cow;
+
+/// Name and units of a dataset.
+pub(super) struct Meaning {
+    pub(super) long_name: Cow<'static, str>,
+    pub(super) units: &'static str,
+}
+
+impl Meaning {
+    pub fn new(long_name: impl Into<Cow<'static, str>>, units: &'static str) -> Self {
+        Self { long_name: long_name.into(), units }
+    }
+}
 
 /// A dimension.
 pub(super) fn axis(name: &str) -> Meaning {

@@ -6,8 +6,9 @@ use std::time::Instant;
 
 use hdf5_metno::{File, file::LibraryVersion};
 
-use super::dataset::{Axis, Meaning, axis, building, dataset, labelled_axis, write_text};
+use super::dataset::{Axis, axis, building, dataset, labelled_axis, write_text};
 use super::layout::{CAUSES, FRAME_VALUES, NAMED_FIELDS, NAMED_VALUES, NODAL_FIELDS, STEP_VALUES};
+use super::meanings::Meaning;
 use super::{provenance, seconds};
 use crate::output::{StorageError, atomic_file};
 use crate::run::{Frame, Record, Seconds};

@@ -10,7 +10,7 @@ use super::history_panel::HistoryPanel;
 use super::page::{Drawn, Page, SIZE};
 use super::panel::Rect;
 use super::render::Draw;
-use super::state_panel::StatePanel;
+use super::state_panel::{NodalLines, StatePanel};
 use crate::output::drawn::smooth;
 use crate::run::{Frame, Record};
 
@@ -19,17 +19,6 @@ const POINTS: usize = 512;
 /// Between the page's edge and what stands nearest to it; between the labels of neighbouring panels.
 const EDGE: f64 = 14.0;
 const GAP: f64 = 16.0;
-
-/// Lines of the (ρ, κ) plane on which the energy of the agents vanishes, as samples (ρ, κ).
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct NodalLines {
-    /// Preferred curvature κ₀(ρ).
-    pub preferred_curvature: Vec<(f64, f64)>,
-    /// Low density ρ₋(κ).
-    pub low: Vec<(f64, f64)>,
-    /// High density ρ₊(κ).
-    pub high: Vec<(f64, f64)>,
-}
 
 /// How a figure is made.
 #[derive(Clone, Debug, PartialEq)]

@@ -16,6 +16,7 @@ mod render;
 mod state_panel;
 mod tradeoff_figure;
 
-pub use figure::{NodalLines, Options, plot};
+pub use figure::{Options, plot};
 pub use file::{PictureError, check_name};
+pub use state_panel::NodalLines;
 pub use tradeoff_figure::plot_tradeoff;

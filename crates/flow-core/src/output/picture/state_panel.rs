@@ -4,7 +4,6 @@
 use plotters::prelude::DrawingBackend;
 
 use super::axis::Axis;
-use super::figure::NodalLines;
 use super::page::{Drawn, FAINT, INK, Page, Pattern, Pen, SEA, SKY, VERMILION};
 use super::panel::{Panel, Rect};
 use crate::run::Frame;
@@ -14,6 +13,17 @@ const FINAL: Pen = Pen::solid(INK, 4.0);
 /// A state that covers less than this part of both axes is drawn as a dot.
 const POINT: f64 = 0.01;
 const DOT: f64 = 7.0;
+
+/// Lines of the (ρ, κ) plane on which the energy of the agents vanishes, as samples (ρ, κ).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NodalLines {
+    /// Preferred curvature κ₀(ρ).
+    pub preferred_curvature: Vec<(f64, f64)>,
+    /// Low density ρ₋(κ).
+    pub low: Vec<(f64, f64)>,
+    /// High density ρ₊(κ).
+    pub high: Vec<(f64, f64)>,
+}
 
 /// The panel; its frame is chosen when its labels are known.
 pub(super) struct StatePanel<'a> {

@@ -16,8 +16,7 @@ use super::keywords::Entries;
 use super::overrides;
 use super::report::Report;
 use super::section::Section;
-use super::shipped::SHIPPED;
-use super::suggest::nearest;
+use super::shipped::{self, SHIPPED};
 use super::{Accuracy, Curve, Density, Energy, Flow, Output, Time};
 use crate::flow::MetricRole;
 
@@ -214,7 +213,7 @@ impl Scene {
     /// The name of the shipped scene that a mistyped `name` may stand for.
     #[must_use]
     pub fn shipped_like(name: &str) -> Option<&'static str> {
-        nearest(name, SHIPPED.iter().map(|(shipped, _)| *shipped))
+        shipped::like(name)
     }
 
     /// Name and text of each scene that comes with the program.

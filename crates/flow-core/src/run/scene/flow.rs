@@ -54,7 +54,7 @@ impl Default for Flow {
     fn default() -> Self {
         Self {
             normal_mobility: NormalMobility::Identity,
-            gauge: Gauge::ScaledArcLength,
+            gauge: Gauge::default(),
             grading: None,
             stop_on_contact: false,
             switch: Vec::new(),

@@ -4,15 +4,16 @@ use std::sync::Arc;
 
 use super::choice::names;
 use super::error::Fault;
-use super::flow::Flow;
 use super::formula::Formula;
 use super::section::Section;
 use crate::flow::{self, MetricRole};
 
 names! {
     /// The gauge: which tangential velocity goes with a normal one.
+    #[derive(Default)]
     pub enum Gauge {
         /// The metric g stays uniform along the curve. The default.
+        #[default]
         ScaledArcLength = "scaled-arc-length",
         /// The metric g is the length times a fixed function of the parameter, `grading`.
         Graded = "graded",
@@ -50,9 +51,9 @@ impl Gauge {
 
     /// The keys `gauge` and `grading` of a table.
     pub(super) fn read(section: &mut Section<'_>) -> (Option<Self>, Option<Formula>) {
-        let gauge = section.get("gauge").and_then(|entry| entry.choice(&[]));
+        let gauge: Option<Self> = section.get("gauge").and_then(|entry| entry.choice(&[]));
         let grading = section.get("grading");
-        let known = gauge.unwrap_or(Flow::default().gauge);
+        let known = gauge.unwrap_or_default();
         match (known, &grading) {
             (gauge, Some(_)) if gauge.metric() != MetricRole::Uniform => {}
             // A gauge that is not known has its own message.

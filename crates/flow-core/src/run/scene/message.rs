@@ -3,8 +3,8 @@
 use std::fmt::{self, Display, Formatter};
 use std::path::Path;
 
-use super::document::Scene;
 use super::error::{Bound, Fault, Place, Problem};
+use super::shipped;
 
 /// More problems than this are counted, not shown.
 const MAX_SHOWN: usize = 20;
@@ -33,8 +33,7 @@ pub(super) fn plain(text: &str) -> String {
 #[cold]
 pub(super) fn unreadable(path: &Path) -> String {
     let name = plain(&path.display().to_string());
-    let meant =
-        Scene::shipped_like(&name).map(|shipped| format!("did you mean the shipped scene `{shipped}`? "));
+    let meant = shipped::like(&name).map(|shipped| format!("did you mean the shipped scene `{shipped}`? "));
     let meant = meant.unwrap_or_default();
     format!(
         "cannot read the scene `{name}`; {meant}check the path, or list the shipped scenes with `curveflow scenes`"

@@ -1,5 +1,7 @@
 //! The scenes that come with the program, from `scenes/` at the root of the repository.
 
+use super::suggest::nearest;
+
 /// Name and text of each, in the order in which they are listed.
 pub(super) const SHIPPED: &[(&str, &str)] = &[
     ("three_fold", include_str!("../../../../../scenes/three_fold.toml")),
@@ -12,3 +14,8 @@ pub(super) const SHIPPED: &[(&str, &str)] = &[
     ("blend", include_str!("../../../../../scenes/blend.toml")),
     ("circle", include_str!("../../../../../scenes/circle.toml")),
 ];
+
+/// The name that a mistyped `name` may stand for.
+pub(super) fn like(name: &str) -> Option<&'static str> {
+    nearest(name, SHIPPED.iter().map(|(shipped, _)| *shipped))
+}

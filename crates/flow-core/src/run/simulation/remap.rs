@@ -10,7 +10,7 @@ use crate::run::failure::Failure;
 use crate::run::mesh::Mesh;
 use crate::run::resolution::unresolved;
 use crate::run::setup_error::SetupError;
-use crate::run::{limits, setup};
+use crate::run::{assembly, limits};
 
 /// Steps between looks at nodes that are fixed.
 const FIXED_LOOKS: u64 = 8;
@@ -126,7 +126,7 @@ impl Simulation {
 
     /// Checks that there is room for the run on the nodes of `plan`.
     fn check_plan(&self, plan: &Plan) -> Result<(), SetupError> {
-        let layout = setup::layout(self.gauges.scene(), plan.mesh.nodes);
+        let layout = assembly::layout(self.gauges.scene(), plan.mesh.nodes);
         limits::check_solver(self.gauges.scene(), layout)?;
         self.check_room(1, layout)
     }

@@ -1,38 +1,26 @@
-//! The local part of I − γJ with variable coefficients, by the compact fourth-order Laplacian on a grid of at most
-//! [`MOST_NODES`] nodes, corrected on both sides by the root of the ratio of the symbols.
-//!
-//! The ratio of the constant-coefficient symbols takes out what the differences miss at high modes. Modes that the
-//! coarse grid does not hold are left to the Fourier symbol. The tangential (non-local) part is of order 3 against 6
-//! and left to the Krylov iteration. See `THEORY.md`, eq. (O2).
+//! Banded approximate inverses of I − γJ: [`local`] for nodes at fixed fractions of the length, [`material`] for nodes that move
+//! with the curve. See `THEORY.md`, eqs. (O2) and (O9).
 
 mod coefficients;
-mod rows;
+mod compact_laplacian;
+mod local;
+mod local_spacing;
+mod material;
+mod reach;
 mod window;
 
 use std::fmt::Debug;
 
-pub use coefficients::Coefficients;
-use rows::Stencils;
-pub use window::Window;
+use coefficients::Coefficients;
+use local::LocalPart;
+use material::MaterialPart;
+use reach::diffuses;
+pub use reach::exists;
+use window::Window;
 
-use super::compact_laplacian::{mass_symbol, symbol_of_mass};
-use super::fourier::{diagonal_symbol, mobility_symbol};
-use super::local_spacing::LocalSpacing;
-use super::material::MaterialPart;
 use crate::flow::gradient_flow::GradientFlow;
 use crate::geometry::Complex64;
-use crate::geometry::vectors::{mean, multiply};
-use crate::operators::{CyclicBanded, FactorisationError};
-
-/// More nodes make the assembled sixth-order band inaccurate, and buy nothing; and the eighth-order one of surface diffusion.
-const MOST_NODES: usize = 1024;
-const MOST_NODES_OF_SURFACE_DIFFUSION: usize = 384;
-/// Graded and co-moving nodes are crowded somewhere: fewer of them would miss what they crowd for.
-pub const MOST_UNEQUAL_NODES: usize = 8192;
-/// F fields have a band of half-width 4F − 1, which needs three times as many rows: 12 nodes for any F. With surface diffusion it is
-/// 5F − 1.
-const FEWEST_NODES: usize = 12;
-const FEWEST_NODES_OF_SURFACE_DIFFUSION: usize = 15;
+use crate::operators::FactorisationError;
 
 /// A banded approximate inverse acting on spectra.
 pub trait Banded: Debug + Send + Sync {
@@ -42,29 +30,6 @@ pub trait Banded: Debug + Send + Sync {
     fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> Result<(), FactorisationError>;
     /// Applies the inverse to the low modes of all fields.
     fn apply(&mut self, spectra: &mut [Complex64]);
-}
-
-/// Most fields of the bands below.
-const MOST_FIELDS: usize = 4;
-
-/// Whether [`build`] builds something.
-pub fn exists(flow: &GradientFlow) -> bool {
-    let layout = flow.layout();
-    let fewest = if diffuses(flow) { FEWEST_NODES_OF_SURFACE_DIFFUSION } else { FEWEST_NODES };
-    layout.nodes() >= fewest && layout.fields() <= MOST_FIELDS
-}
-
-/// That of the curvature alone, where one [`exists`]; what the densities at hand make concave is left out. On graded nodes the
-/// highest modes of surface diffusion are too far from the band's.
-pub fn of_curvature(flow: &GradientFlow) -> Option<Box<dyn Banded>> {
-    let part = || LocalPart::<1, 3> { is_convex: true, ..LocalPart::new(flow) };
-    let serves = exists(flow) && flow.layout().metric().is_none() && !diffuses(flow);
-    serves.then(|| Box::new(part()) as Box<dyn Banded>)
-}
-
-/// Whether the normal mobility is that of surface diffusion, which widens the band.
-pub fn diffuses(flow: &GradientFlow) -> bool {
-    flow.normal_mobility().order() > 0
 }
 
 /// Builds the solver for the number of fields, up to four; none beyond, and none on a handful of nodes.
@@ -94,140 +59,9 @@ fn of_fields<const F: usize, const B: usize>(flow: &GradientFlow) -> Box<dyn Ban
     }
 }
 
-#[derive(Debug)]
-struct LocalPart<const F: usize, const B: usize> {
-    window: Window,
-    /// Whether 𝓚 makes no mean, by field.
-    keeps_mean: [bool; F],
-    local: Option<LocalSpacing>,
-    /// Whether V is −`Δ_s` f, or f.
-    is_surface_diffusion: bool,
-    /// Whether the energy density counts as convex.
-    is_convex: bool,
-    matrix: CyclicBanded<B>,
-    /// Symbol of A by mode.
-    mass: Vec<f64>,
-    /// Factors on the right-hand sides and on the solutions, by field and mode: powers of A, and the root of
-    /// the ratio of the symbols; where slopes of densities drive the curvature, the ratio on the right-hand sides.
-    before: Vec<f64>,
-    after: Vec<f64>,
-    coefficients: Coefficients<F>,
-    stencils: Stencils<F>,
-    /// All fields at the nodes.
-    values: Vec<f64>,
-}
-
-impl<const F: usize, const B: usize> LocalPart<F, B> {
-    fn new(flow: &GradientFlow) -> Self {
-        let (nodes, grading) = (flow.layout().nodes(), flow.grading());
-        let is_surface_diffusion = diffuses(flow);
-        let most = match (grading, is_surface_diffusion) {
-            (Some(_), _) => MOST_UNEQUAL_NODES,
-            (None, false) => MOST_NODES,
-            (None, true) => MOST_NODES_OF_SURFACE_DIFFUSION,
-        };
-        let coarse = nodes.clamp(8, most);
-        let window = Window::new(nodes, coarse);
-        let grid = &window.grid;
-        let matrix = CyclicBanded::in_blocks(coarse * F, F);
-        Self {
-            keeps_mean: [true; F],
-            local: grading.map(|grading| LocalSpacing::new(grading, coarse)),
-            is_surface_diffusion,
-            is_convex: false,
-            stencils: Stencils::new(matrix.places() / F, is_surface_diffusion),
-            matrix,
-            mass: (0..grid.modes()).map(|mode| mass_symbol(mode, coarse)).collect(),
-            before: vec![1.0; F * grid.modes()],
-            after: vec![1.0; F * grid.modes()],
-            coefficients: Coefficients::new(nodes, grid),
-            values: vec![0.0; coarse * F],
-            window,
-        }
-    }
-
-    /// Symbols of the diagonal block of `field` with mean coefficients: by second differences with the normal mobility
-    /// left out unless it is surface diffusion, as in the band, and the right one.
-    fn diagonal_symbols(
-        &self,
-        flow: &GradientFlow,
-        field: usize,
-        mean: f64,
-        gamma: f64,
-        [difference, exact]: [f64; 2],
-    ) -> [f64; 2] {
-        let length = flow.symbol_length();
-        let square = difference / (length * length);
-        let band = if field == 0 && !self.is_surface_diffusion {
-            square * square
-        } else {
-            mobility_symbol(flow, field, difference, length)
-        };
-        let stiffness = flow.energy_terms().implicit_stiffness()[field];
-        let band = 1.0 + gamma * band * (stiffness * square + mean);
-        [band, 1.0 + gamma * diagonal_symbol(flow, field, exact, mean)]
-    }
-
-    fn set_correction(&mut self, flow: &mut GradientFlow, gamma: f64) {
-        let (coarse, modes) = (self.window.grid.nodes(), self.window.grid.modes());
-        // What slopes of a density do to the curvature is of the order of the curvature's row.
-        let by_rows = flow.energy_terms().implicit_costs::<F>()[0][1..].iter().any(|cost| *cost != 0.0);
-        for field in 0..F {
-            let second = flow.energy_terms().jet().second(field, field);
-            let mean = mean(second).max(0.0);
-            for mode in 0..self.window.common_modes() {
-                let exact = flow.grid_and_derivative().1.minus_laplacian()[mode];
-                let mass = self.mass[mode];
-                let difference = symbol_of_mass(mass, coarse);
-                let [band, right] = self.diagonal_symbols(flow, field, mean, gamma, [difference, exact]);
-                let mut power = if field == 0 { mass * mass } else { mass };
-                if self.is_surface_diffusion {
-                    power *= mass;
-                }
-                let ratio = band / right;
-                let [before, after] = if by_rows { [ratio, 1.0] } else { [ratio.sqrt(); 2] };
-                self.before[field * modes + mode] = power * before;
-                self.after[field * modes + mode] = mass * after;
-            }
-        }
-    }
-}
-
-impl<const F: usize, const B: usize> Banded for LocalPart<F, B> {
-    fn modes(&self) -> usize {
-        self.window.modes()
-    }
-
-    fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> Result<(), FactorisationError> {
-        for (keeps, density) in self.keeps_mean.iter_mut().skip(1).zip(flow.density_mobilities()) {
-            *keeps = density.conserves_mass();
-        }
-        self.coefficients.set(flow, &mut self.window.grid);
-        if self.is_convex {
-            self.coefficients.make_convex();
-        }
-        self.set_correction(flow, gamma);
-        let scale = (self.window.grid.nodes() as f64 / flow.frozen().length()).powi(2);
-        self.fill(flow, gamma, scale);
-        self.matrix.factorise()
-    }
-
-    fn apply(&mut self, spectra: &mut [Complex64]) {
-        let (nodes, modes) = (self.window.grid.nodes(), self.window.grid.modes());
-        for (field, values) in self.values.chunks_exact_mut(nodes).enumerate() {
-            self.window.synthesise(spectra, field, &self.before[field * modes..], values);
-            if let Some(local) = &self.local {
-                multiply(values, &local.inverse);
-            }
-        }
-        self.matrix.solve(&mut self.values);
-        for (field, values) in self.values.chunks_exact_mut(nodes).enumerate() {
-            if let Some(local) = &self.local {
-                multiply(values, &local.weight);
-            }
-            // Where J makes no mean, its local part does: the mean stays as it was.
-            let place = (field, self.keeps_mean[field]);
-            self.window.transform(values, place, &self.after[field * modes..], spectra);
-        }
-    }
+/// That of the curvature alone, where one [`exists`]; what the densities at hand make concave is left out. On graded nodes the
+/// highest modes of surface diffusion are too far from the band's.
+pub fn of_curvature(flow: &GradientFlow) -> Option<Box<dyn Banded>> {
+    let serves = exists(flow) && flow.layout().metric().is_none() && !diffuses(flow);
+    serves.then(|| Box::new(LocalPart::<1, 3>::convex(flow)) as Box<dyn Banded>)
 }

@@ -6,9 +6,10 @@
 
 mod rows;
 
-use super::banded::{Banded, Coefficients, MOST_UNEQUAL_NODES, Window, diffuses};
-use super::fourier::mobility_symbol;
+use super::super::fourier::mobility_symbol;
 use super::local_spacing::LocalSpacing;
+use super::reach::{MOST_UNEQUAL_NODES, diffuses};
+use super::{Banded, Coefficients, Window};
 use crate::flow::gradient_flow::GradientFlow;
 use crate::geometry::vectors::{mean, multiply, scale};
 use crate::geometry::{Complex64, Grading};

@@ -4,7 +4,7 @@
 
 use multiversion::multiversion;
 
-use super::super::carries;
+use super::super::super::motion::carries;
 use super::super::compact_laplacian::{DIFFERENCE, MASS, power_of_mass};
 use super::LocalPart;
 use crate::flow::gradient_flow::GradientFlow;

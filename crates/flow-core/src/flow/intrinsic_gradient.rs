@@ -1,0 +1,12 @@
+//! The gradient of an energy by the intrinsic fields and the length.
+
+use crate::geometry::Complex64;
+
+/// Gradient of the energy, as the flow map takes it.
+#[derive(Clone, Debug)]
+pub struct IntrinsicGradient {
+    /// Variational derivatives ∂_κ𝓕, ∂_ρ𝓕 as spectra, one per field.
+    pub spectra: Vec<Complex64>,
+    /// ∂𝓕/∂|Γ| at fixed K and m.
+    pub by_length: f64,
+}

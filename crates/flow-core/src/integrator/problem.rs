@@ -1,0 +1,96 @@
+//! What is integrated: a right-hand side, its Jacobian, and what a finished step must know.
+
+use super::integrals::INTEGRALS;
+use super::linear_part::LinearPart;
+
+/// A system dy/dt = f(y) with an implicit operator I − γJ, J ≈ f′, along whose solutions an energy falls.
+///
+/// The step loop trusts what [`Problem::finish`] says of the energy E. It refuses steps in which E rises by more than its rounding, and
+/// steps after which ΔE + ∫D dt, D the dissipation, is not 0 to [`energy_tolerance`](crate::integrator::AdaptiveOptions::energy_tolerance): D must be −dE/dt along f exactly,
+/// that is −∇E·f. Where it is not, steps shrink until the balance is within the tolerance, and the loop ends with
+/// [`IntegrationError::OpenBalance`](crate::integrator::IntegrationError::OpenBalance) once it runs out of steps. A problem without an energy tells a constant one and the dissipation 0:
+/// then its steps are controlled by their local errors alone.
+pub trait Problem {
+    /// Length of the state.
+    fn size(&self) -> usize;
+    /// Consecutive blocks of the state; errors are relative to the norm of each block.
+    fn blocks(&self) -> Vec<std::ops::Range<usize>>;
+    /// Least square norm |`y_b|²` that a block's error is compared with.
+    fn block_floor(&self, block: usize, y: &[f64]) -> f64;
+    /// f(y) into `rate`.
+    fn rate(&mut self, y: &[f64], rate: &mut [f64]);
+    /// Freezes J at `y`; f(y) into `rate`.
+    fn linearise(&mut self, y: &[f64], rate: &mut [f64]);
+    /// J times `v` into `out`.
+    fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]);
+    /// Prepares an approximate inverse of I − γJ; false if that fails.
+    fn factorise(&mut self, gamma: f64) -> bool;
+    /// Overwrites `r` by the approximate solution of (I − γJ)x = r.
+    fn precondition(&mut self, r: &mut [f64]);
+    /// Weighs a residual of (I − γJ)x = r by how much its coefficients matter.
+    fn weigh(&self, r: &mut [f64]);
+    /// Undoes [`Problem::weigh`].
+    fn unweigh(&self, r: &mut [f64]);
+    /// Overwrites the residual `r` of a stage y = a + γf(y) by a change of y that makes good the stiff part of what J, which is
+    /// that of a guess, has missed; false if there is none.
+    fn settle(&mut self, _gamma: f64, _r: &mut [f64]) -> bool {
+        false
+    }
+    /// Tells how many Krylov iterations a solve took; true if the preconditioner changed its kind and
+    /// must be prepared anew.
+    fn krylov_feedback(&mut self, iterations: usize) -> bool;
+    /// Puts the candidate `y` back onto the constraints; evaluates what a finished step must know.
+    fn finish(&mut self, time: f64, y: &mut [f64]) -> Finish;
+    /// Whether the energy tells that the flow is at rest: true if f vanishes wherever the energy no longer falls, as in a gradient
+    /// flow. A step that fails once the energy has stayed the same to rounding while the time doubled, or that fails for the rounding
+    /// of an energy that hardly falls, is then taken with the state held as it is. Where f may move the state along at the same
+    /// energy (an oscillator, a constant energy), that would be wrong by as much as f moves it: such a step is tried again, and
+    /// fails with an error if it must.
+    fn rests_with_its_energy(&self) -> bool {
+        false
+    }
+    /// Energy that the rounding of the state finished last may add or take away, where the energy itself is near zero.
+    fn energy_rounding(&self, _y: &[f64]) -> f64 {
+        0.0
+    }
+    /// Derivative of the energy along `direction` at the candidate finished last; none where it is not at hand.
+    fn energy_slope(&self, _direction: &[f64]) -> Option<f64> {
+        None
+    }
+    /// f(y) at the candidate `y` finished last, into `rate`.
+    fn finished_rate(&mut self, y: &[f64], rate: &mut [f64]) {
+        self.rate(y, rate);
+    }
+    /// A part of J at `y` whose exponential is at hand, into `part`; takes the linearisation to `y`. False if there is none.
+    fn linear_part(&mut self, _y: &[f64], _part: &mut LinearPart) -> bool {
+        false
+    }
+    /// Tells that the state finished last was accepted, with the integrals at it.
+    fn accepted(&mut self, time: f64, integrals: [f64; INTEGRALS]);
+}
+
+/// What a problem says of a candidate state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Finish {
+    /// The state is usable.
+    Good {
+        /// Energy, which may not rise along f; a constant where there is none.
+        energy: f64,
+        /// Dissipation −dE/dt = −∇E·f ≥ 0, exactly.
+        dissipation: f64,
+        /// Rates of the integrals carried along; the first is the dissipation.
+        integral_rates: [f64; INTEGRALS],
+    },
+    /// A value is NaN or infinite, or a constraint cannot be met.
+    NotFinite,
+}
+
+impl Finish {
+    /// The dissipation; infinite where there is none.
+    pub(super) fn dissipation(&self) -> f64 {
+        match self {
+            Self::Good { dissipation, .. } => *dissipation,
+            Self::NotFinite => f64::INFINITY,
+        }
+    }
+}
