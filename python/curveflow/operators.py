@@ -98,7 +98,7 @@ def flow_map(
     """How a curve and its densities change under a normal velocity, the gauge included (F1), (F2), (F19).
 
     Densities are carried: every labelled piece keeps its mass. The map is the one of the discrete flow; minus its exact
-    transpose takes the gradient of an energy to the :func:`normal_force`.
+    transpose takes the gradient of an energy to the :func:`normal_force`, but for one exception named there.
 
     Args:
         curvature: curvature, shape (node,), in 1 / length.
@@ -209,7 +209,9 @@ def normal_force(
     """Force of the energy of a scene on the normal motion of a curve, before any mobility (F3), (F19).
 
     Exactly minus the transpose of :func:`flow_map` on the gradient of :func:`energy`: under a normal velocity V, with the
-    densities carried, the energy changes at the rate of minus the integral of force times V over the arc length.
+    densities carried, the energy changes at the rate of minus the integral of force times V over the arc length. One exception:
+    with the Fourier derivative on equidistant nodes and slopes in ``energy.local``, the whole flow of the scene uses the
+    midpoints of the nodes (D6), which :func:`flow_map` does not; the two then agree to the error of the derivative.
 
     Args:
         scene: whose energy, with whose derivative and gauge.

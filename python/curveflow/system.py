@@ -15,9 +15,10 @@ class System:
     too, and last the length; :attr:`blocks` says where. Those of a field ``u`` are ``numpy.fft.rfft(u) / node count``, as
     real and imaginary parts in turn.
 
-    For implicit methods there are an operator J and a preconditioner of I - gamma J. J = -K Hess F (F7) is what Curveflow's own
-    implicit steps use as the Jacobian: the derivative of f without the terms that vanish where the force does. At equilibrium
-    it is the Jacobian; elsewhere Newton's method with it converges linearly, and fast.
+    For implicit methods there are an operator J and a preconditioner of I - gamma J. J (F20) is what Curveflow's own implicit
+    steps use as the Jacobian: -K Hess F, and what the tension of the curve does to a change of the curvature. It is the
+    Jacobian where the gradient of F is a combination of those of turning number and masses; at a rest that the closure of the
+    curve holds, it is not (F7). Newton's method with it converges linearly, and fast.
 
     Arrays are contiguous ``float64`` of shape (size,), read and written in place. The interpreter lock is released during a
     call: other threads must not write to its arrays meanwhile. Calls on one system wait for each other. The number of nodes

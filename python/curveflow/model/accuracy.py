@@ -21,7 +21,7 @@ class Accuracy(Table):
     derivative: Literal["auto", "fourier", "central-2", "central-4", "central-6", "central-8"] = default(
         "accuracy", "derivative"
     )
-    """Discrete derivative along the curve: trigonometric, or central differences of order 2 to 8 (THEORY.md, D2). ``auto``:
+    """Discrete derivative along the curve: trigonometric, or central differences of order 2 to 8 (THEORY.md, D16). ``auto``:
     trigonometric, but ``central-8`` on graded nodes that follow the solution."""
     linear_solver: Literal["auto", "fourier", "banded", "dense"] = default("accuracy", "linear_solver")
     """Solver of the linear systems of the implicit steps: ``fourier`` (O1) or ``banded`` (O2) preconditioner,

@@ -66,6 +66,7 @@ impl Kernel {
 
     /// Largest distance of equidistant nodes on a circle of length `length` on which the sum of G over them, and that of qG′, moves by
     /// less than the part `error` of the sum of the moduli when the nodes move by half of that: the error of the trapezoidal rule.
+    /// See `THEORY.md`, eq. (D14).
     pub(super) fn largest_spacing(&self, length: f64, error: f64) -> f64 {
         let mut scratch = vec![0.0; self.gradient.scratch_len()];
         let mut nodes = FEWEST_NODES;

@@ -2,7 +2,7 @@
 //!
 //! A family has a derivative from the nodes to the flux points, D₊, its negative transpose D₋ from the flux
 //! points back to the nodes, an interpolation M to the flux points and the second derivative D₋D₊. Transposes
-//! are conjugate symbols, so D₊ᵀ = −D₋ holds to rounding by construction. See `THEORY.md`, section 2.
+//! are conjugate symbols, so D₊ᵀ = −D₋ holds to rounding by construction. See `THEORY.md`, eq. (D16).
 //!
 //! On graded nodes the symbols are those per unit parameter, and `Δ_s` = D₋(1/w)D₊/(|Γ|²w) with the grading w that is
 //! kept here. The flux points are midpoints then for every family.

@@ -1,4 +1,4 @@
-//! The implicit operator −𝓚 Hess `𝓕_h`, and the tension in it. See `THEORY.md`, eqs. (F7) and (F20).
+//! The operator −𝓚 Hess `𝓕_h`, and with the tension the implicit one. See `THEORY.md`, eqs. (F7), (F20) and (F21).
 
 use super::GradientFlow;
 use crate::flow::curve_fields::CurveFields;
@@ -38,7 +38,8 @@ impl GradientFlow {
         drive(mobility, self.frozen_fault, &self.frozen, &self.force, &mut self.velocity);
     }
 
-    /// Takes the tension at the linearisation; none where the energy depends on positions, see (F20).
+    /// Takes the tension at the linearisation; none where the energy depends on positions, see (F20); its mean is left out
+    /// where the length is held, see (F21).
     pub(super) fn freeze_tension(&mut self) {
         if self.energy.depends_on_positions() {
             return self.frozen_stretching.fill(0.0);
@@ -52,7 +53,8 @@ impl GradientFlow {
         }
     }
 
-    /// Where the area is held, 𝓚 takes its gradient to zero: the second derivative is that of the energy less the force that holds it.
+    /// Where the area is held, 𝓚 takes its gradient to zero: the second derivative is that of the energy less the force that holds
+    /// it, see (F21).
     pub(super) fn hold_area(&mut self) {
         if self.frozen_mobility.keeps().area && self.energy.depends_on_positions() {
             self.map.force(&self.frozen, &self.gradient.spectra, self.gradient.by_length, &mut self.force);

@@ -1,4 +1,4 @@
-//! Approximate inverses of I − γJ, J = −𝓚 Hess `𝓕_h`. See `THEORY.md`, section 5.
+//! Approximate inverses of I − γJ, J = −𝓚 Hess `𝓕_h` and the tension. See `THEORY.md`, section 5.
 
 mod banded;
 mod dense;

@@ -18,8 +18,7 @@ const STIFF: f64 = 0.4;
 const UNSTABLE: f64 = 2.0;
 /// What a step counts at most whose error would have let it grow farther than the stiffness.
 const MOST_LIMITED: u32 = 8;
-/// What a step that is limited so counts, over what one that is not takes away again: at rest, where both corrections are
-/// rounding, they take turns.
+/// What an attempt that is thrown away counts; a step that is not limited takes one away again.
 pub(super) const LIMITED: u32 = 2;
 /// Steps in which the clock is looked for; after them it is compared with others in every second one.
 const SEARCH: u64 = 16;
