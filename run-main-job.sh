@@ -4,9 +4,10 @@
 set -eu
 cd "$(dirname "$0")"
 
-[ -x .venv/bin/python ] || python3 -m venv .venv
+.venv/bin/python -c "" 2>/dev/null || python3 -m venv --clear .venv # also where its Python has gone
 PATH="$PWD/.venv/bin:$PATH" # HDF5 is built with the cmake of .venv
-export PATH
+CARGO_TARGET_DIR="$PWD/target" # where the commands below look for what is built
+export PATH CARGO_TARGET_DIR
 python -m pip install --quiet --disable-pip-version-check "cmake>=3.26"
 
 cargo build --release --package flow-cli
