@@ -15,6 +15,7 @@ __all__ = [
     "System",
     "Tradeoff",
     "check_writable",
+    "command",
     "energy",
     "file_bytes",
     "flow_map",
@@ -141,6 +142,7 @@ class System:
     def factorise(self, gamma: float) -> bool: ...
     def precondition(self, r: NDArray[np.float64]) -> None: ...
 
+def command(arguments: list[str]) -> int: ...
 def schema() -> str: ...
 
 @final

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from operator import index
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NoReturn, SupportsIndex
 
 import numpy as np
 
@@ -110,6 +110,9 @@ class Simulation:
         self._native = _curveflow.Simulation(Scene._core(scene))
         self._scene: Scene | None = scene
         self._scheduled: list[_Scheduled] = []
+
+    def __reduce_ex__(self, protocol: SupportsIndex) -> NoReturn:
+        raise TypeError("a simulation cannot be copied or pickled: save it with checkpoint(), and read that with Simulation.resume()")
 
     @classmethod
     def resume(cls, path: str | os.PathLike[str]) -> Simulation:

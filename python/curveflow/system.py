@@ -1,5 +1,7 @@
 """The system of ordinary differential equations of a scene, for integrators from outside."""
 
+from typing import NoReturn, SupportsIndex
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -41,6 +43,9 @@ class System:
 
     def __init__(self, scene: Scene) -> None:
         self._native = _curveflow.System(Scene._core(scene))
+
+    def __reduce_ex__(self, protocol: SupportsIndex) -> NoReturn:
+        raise TypeError("a system cannot be copied or pickled: make a new one of its scene")
 
     @property
     def initial(self) -> NDArray[np.float64]:

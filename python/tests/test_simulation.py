@@ -267,3 +267,10 @@ def test_the_arrays_of_a_state_are_its_own(scene: cf.Scene):
     assert all(np.array_equal(a, b) for a, b in zip(arrays, before))
     assert not np.array_equal(simulation.state.position, before[0])
     assert not any(np.shares_memory(a, b) for i, a in enumerate(arrays) for b in arrays[:i])
+
+
+def test_what_cannot_be_copied_says_so():
+    for thing in (cf.Simulation(cf.Scene.shipped("circle")), cf.System(cf.Scene.shipped("circle"))):
+        for way in (copy.copy, copy.deepcopy, pickle.dumps):
+            with pytest.raises(TypeError, match="cannot be copied or pickled"):
+                way(thing)

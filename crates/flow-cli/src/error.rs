@@ -1,4 +1,4 @@
-//! What can go wrong in a command; `main.rs` maps each kind to its exit code.
+//! What can go wrong in a command; `lib.rs` maps each kind to its exit code.
 
 use std::error::Error;
 use std::io;
@@ -43,6 +43,9 @@ pub enum CliError {
     /// The result could not be written; its run has a checkpoint.
     #[error("{reason}; the run is not lost: after that, `curveflow resume {0}` goes on from its checkpoint", .output.display())]
     Unwritten { reason: StorageError, output: PathBuf },
+    /// Neither the result nor a checkpoint of its run could be written.
+    #[error("{0}; a checkpoint of the run could not be written either, so that nothing of it is kept")]
+    Lost(StorageError),
     /// Standard output is closed or full.
     #[error("cannot write to standard output: {0}; redirect it to a disk with space")]
     Stdout(io::Error),

@@ -6,6 +6,7 @@
 #![allow(clippy::needless_pass_by_value)] // the arguments of a call from Python arrive by value
 
 mod arrays;
+mod command;
 mod error;
 mod exports;
 mod operators;
@@ -34,6 +35,8 @@ mod _curveflow {
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");
 
+    #[pymodule_export]
+    use super::command::command;
     #[pymodule_export]
     use super::exports::{check_writable, file_bytes, picture, provenance, write_file};
     #[pymodule_export]

@@ -116,7 +116,7 @@ impl Conduct {
 fn unwritten(reason: StorageError, ended: &Ended, saving: &mut Saving) -> CliError {
     let saved = matches!(ended.last, Some(Ok(()))) || ended.save(&mut saving.pair).is_ok();
     let output = saving.pair.result().to_path_buf();
-    if saved { CliError::Unwritten { reason, output } } else { reason.into() }
+    if saved { CliError::Unwritten { reason, output } } else { CliError::Lost(reason) }
 }
 
 fn outcome(record: Record, output: &Path) -> Result<(), CliError> {

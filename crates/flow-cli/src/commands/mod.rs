@@ -3,6 +3,7 @@
 pub mod check;
 mod conduct;
 pub mod info;
+mod memory;
 pub mod plot;
 pub mod resume;
 mod room;

@@ -1,12 +1,13 @@
-//! Warnings where a run as predicted has no room: in the memory of the machine, or in what a run may hold of frames.
+//! Warnings where a run as predicted has no room: in the memory at hand, or in what a run may hold of frames.
 
 use flow_core::run::Prediction;
 
+use super::memory;
 use crate::print;
 
 /// What does not fit, in sentences.
 pub fn warnings(prediction: &Prediction) -> Vec<String> {
-    in_memory(prediction.memory_bytes, machine_bytes()).into_iter().chain(in_frames(prediction)).collect()
+    in_memory(prediction.memory_bytes, memory::at_hand()).into_iter().chain(in_frames(prediction)).collect()
 }
 
 fn in_frames(prediction: &Prediction) -> Option<String> {
@@ -14,36 +15,18 @@ fn in_frames(prediction: &Prediction) -> Option<String> {
     Some(format!("the run ends early if its nodes grow as predicted and no rest comes before: {error}"))
 }
 
-fn in_memory(needed: f64, machine: Option<f64>) -> Option<String> {
-    let machine = machine.filter(|machine| needed > *machine)?;
+fn in_memory(needed: f64, at_hand: Option<f64>) -> Option<String> {
+    let at_hand = at_hand.filter(|at_hand| needed > *at_hand)?;
     Some(format!(
-        "the run takes about {} GB of memory, and this machine has {} GB; ask for fewer frames, nodes or fields",
+        "the run takes about {} GB of memory, and may have {} GB here; ask for fewer frames, nodes or fields",
         print::significant(needed / 1e9, 2),
-        print::significant(machine / 1e9, 2)
+        print::significant(at_hand / 1e9, 2)
     ))
-}
-
-/// Memory of this machine, where the system tells.
-fn machine_bytes() -> Option<f64> {
-    total_bytes(&std::fs::read_to_string("/proc/meminfo").ok()?)
-}
-
-fn total_bytes(meminfo: &str) -> Option<f64> {
-    let total = meminfo.lines().find_map(|line| line.strip_prefix("MemTotal:"))?;
-    Some(1024.0 * total.trim().strip_suffix("kB")?.trim().parse::<f64>().ok()?)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_memory_of_a_machine_is_read_or_unknown() {
-        assert_eq!(total_bytes("MemTotal:       24683820 kB\nMemFree: 1 kB\n"), Some(24_683_820.0 * 1024.0));
-        for text in ["", "MemFree: 1 kB", "MemTotal: much", "MemTotal: many kB"] {
-            assert_eq!(total_bytes(text), None, "{text}");
-        }
-    }
 
     #[test]
     fn only_a_machine_that_is_too_small_is_spoken_of() {

@@ -60,6 +60,10 @@ struct Target {
 
 impl Target {
     fn new(given: &Path, replace: bool) -> Result<Self, StorageError> {
+        // Asked of the system first: what a link to a pipe says of its target names no file.
+        if fs::metadata(given).is_ok_and(|found| !found.is_file()) {
+            return Err(StorageError::NotAFile { path: given.to_path_buf() });
+        }
         let path = followed(given);
         if path.file_name().is_none() {
             return Err(StorageError::NotAFile { path: given.to_path_buf() });

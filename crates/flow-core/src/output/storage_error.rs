@@ -50,6 +50,10 @@ pub enum StorageError {
     /// The path names a folder, a device or a pipe.
     #[error("{}: is not a plain file; give the name of a file", .path.display())]
     NotAFile { path: PathBuf },
+    /// The name is no text: the HDF5 library cannot open it.
+    #[error("{}: its name, or that of a folder on the way to it, is not UTF-8, which HDF5 cannot open; rename it, or give its \
+             name alone from within its folder", .path.display())]
+    NotUtf8 { path: PathBuf },
     /// The folder of the target does not exist.
     #[error("{}: the folder {} does not exist; create it first", .path.display(), .folder.display())]
     FolderMissing { path: PathBuf, folder: PathBuf },

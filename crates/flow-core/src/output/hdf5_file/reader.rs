@@ -34,7 +34,7 @@ pub fn is_hdf5(path: &Path) -> io::Result<bool> {
 
 /// Reads the result file `path`.
 /// # Errors
-/// [`StorageError::System`] if the file cannot be read at all, otherwise [`StorageError::NotHdf5`],
+/// [`StorageError::System`] if the file cannot be read at all, [`StorageError::NotUtf8`], otherwise [`StorageError::NotHdf5`],
 /// [`StorageError::Foreign`] or [`StorageError::Damaged`].
 pub fn read(path: &Path) -> Result<Record, StorageError> {
     let damaged = |item: &str, source: Error| StorageError::Damaged {
@@ -44,6 +44,9 @@ pub fn read(path: &Path) -> Result<Record, StorageError> {
     };
     let foreign = |found| StorageError::Foreign { path: path.to_path_buf(), found, expected: CONVENTIONS };
     let bounds = Bounds::of(check_bytes(path, &damaged, &foreign)?);
+    if path.to_str().is_none() {
+        return Err(StorageError::NotUtf8 { path: path.to_path_buf() });
+    }
     // The library reads the whole file at once and takes no lock on it.
     let mut options = File::with_options();
     let file = options.with_fapl(|plist| plist.core_filebacked(false)).open(path);
