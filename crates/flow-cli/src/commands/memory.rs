@@ -33,7 +33,7 @@ fn bytes(text: &str) -> Option<f64> {
 fn groups(cgroup: &str) -> Vec<String> {
     let mut files = Vec::new();
     for line in cgroup.lines() {
-        let (root, file) = match line.splitn(3, ':').nth(1) {
+        let (root, file) = match line.split(':').nth(1) {
             Some("") => ("/sys/fs/cgroup", "memory.max"),
             Some(kinds) if kinds.split(',').any(|kind| kind == "memory") => {
                 ("/sys/fs/cgroup/memory", "memory.limit_in_bytes")
