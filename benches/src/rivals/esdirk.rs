@@ -72,8 +72,8 @@ impl Formula for Esdirk {
             // The rate changes little from stage to stage.
             self.guess.copy_from_slice(&self.constant);
             add_scaled(&mut self.guess, gamma, &self.rates[index - 1]);
-            let stage = Stage { gamma, constant: &self.constant, goal };
-            let outcome = self.newton.solve(problem, norm, &stage, &self.guess, &mut self.stage, counters);
+            let stage = Stage { norm, gamma, constant: &self.constant, goal };
+            let outcome = self.newton.solve(problem, &stage, &self.guess, &mut self.stage, counters);
             if outcome != NewtonOutcome::Converged {
                 return false;
             }

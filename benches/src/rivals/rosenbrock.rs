@@ -134,9 +134,8 @@ impl Formula for Rosenbrock {
             self.right_side(problem, y, gamma, index, &mut u, counters);
             let solved = self.gmres.solve(
                 problem,
-                norm,
                 gamma,
-                Target { goal, reduction: KRYLOV_REDUCTION, weighted: false },
+                Target { norm, goal, reduction: KRYLOV_REDUCTION, weighted: false },
                 &mut u,
                 counters,
             );

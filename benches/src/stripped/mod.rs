@@ -108,14 +108,6 @@ impl Problem for BendingOnly {
         }
     }
 
-    fn weigh(&self, _: &mut [f64]) {}
-
-    fn unweigh(&self, _: &mut [f64]) {}
-
-    fn krylov_feedback(&mut self, _: usize) -> bool {
-        false
-    }
-
     fn rests_with_its_energy(&self) -> bool {
         true
     }
@@ -137,7 +129,7 @@ impl Problem for BendingOnly {
         }
         let integral_rates = self.integral_rates(dissipation);
         self.candidate_angle_rate = integral_rates[1];
-        Finish::Good { energy, dissipation, integral_rates }
+        Finish::Good { energy, integral_rates }
     }
 
     fn energy_slope(&self, direction: &[f64]) -> Option<f64> {

@@ -39,7 +39,9 @@ pub fn share_lost(problem: &mut dyn Problem, time: f64, state: &[f64], size: f64
     let mut rate = vec![0.0; state.len()];
     problem.rate(state, &mut rate);
     let mut moved = state.to_vec();
-    let Finish::Good { energy, dissipation, .. } = problem.finish(time, &mut moved) else { return None };
+    let finish = problem.finish(time, &mut moved);
+    let Finish::Good { energy, .. } = finish else { return None };
+    let dissipation = finish.dissipation();
     let rounding = ENERGY_ROUNDING * energy.abs() + problem.energy_rounding(&moved);
     let mut energy_after = |step: f64| {
         moved.iter_mut().zip(state).zip(&rate).for_each(|((moved, y), f)| *moved = y + step * f);

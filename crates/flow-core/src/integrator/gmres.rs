@@ -4,6 +4,9 @@ use super::error_norm::ErrorNorm;
 use super::{Counters, Problem};
 use crate::geometry::vectors::{add_scaled, scale, scale_into};
 
+/// A new vector of this part of its product before orthogonalisation is rounding, of fifty entries or so: the basis spans the solution.
+const EXHAUSTED: f64 = 1e-14;
+
 /// Room for Krylov bases up to a fixed size; nothing is allocated in a solve.
 ///
 /// Most solves take a few vectors, and nodes that follow the solution want new room every few steps: what is not used is not
@@ -21,8 +24,10 @@ pub struct Gmres {
 }
 
 /// How far a residual is to be reduced.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Target {
+#[derive(Clone, Copy, Debug)]
+pub struct Target<'a> {
+    /// The norm that measures it, and the inner product of the basis.
+    pub norm: &'a ErrorNorm,
     /// Norm below which it shall fall.
     pub goal: f64,
     /// Part of itself below which it shall fall.
@@ -68,9 +73,8 @@ impl Gmres {
     pub fn solve(
         &mut self,
         problem: &mut dyn Problem,
-        norm: &ErrorNorm,
         gamma: f64,
-        Target { goal, reduction, weighted }: Target,
+        Target { norm, goal, reduction, weighted }: Target<'_>,
         r: &mut [f64],
         counters: &mut Counters,
     ) -> Solved {
@@ -130,7 +134,7 @@ impl Gmres {
             self.right[k] *= c;
             residual = self.right[k + 1].abs();
             iterations += 1;
-            if size <= 1e-14 * radius {
+            if size <= EXHAUSTED * radius {
                 break;
             }
             scale(next, 1.0 / size);

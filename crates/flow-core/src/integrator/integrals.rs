@@ -12,8 +12,8 @@ pub const INTEGRALS: usize = 4;
 const POINTS: usize = 7;
 /// … and at least, once there are so many.
 const FEWEST_OF_MANY: usize = 5;
-/// The integral whose rate is never negative: of the dissipation.
-pub(super) const POSITIVE: usize = 0;
+/// Index of ∫ dissipation dt among them, the one whose rate is never negative.
+pub const DISSIPATED: usize = 0;
 /// Logarithm by which an interpolated positive rate may leave the range of the two rates beside it.
 const LEAST_SWING: f64 = 0.1;
 /// … and the most, a factor of a thousand.
@@ -128,10 +128,10 @@ impl Integrals {
             *time = scale(*time);
         }
         // A rate that falls by decades within a few steps is a polynomial in its logarithm only.
-        let logarithmic = rates.iter().all(|r| r[POSITIVE] > 0.0);
+        let logarithmic = rates.iter().all(|r| r[DISSIPATED] > 0.0);
         let mut scaled_rates = self.rates;
         if logarithmic {
-            scaled_rates[..used].iter_mut().for_each(|r| r[POSITIVE] = r[POSITIVE].ln());
+            scaled_rates[..used].iter_mut().for_each(|r| r[DISSIPATED] = r[DISSIPATED].ln());
         }
         let points = &scaled[..used];
         let factors = lagrange_factors(points);
@@ -146,8 +146,8 @@ impl Integrals {
             for (i, (value, sum)) in values.iter_mut().zip(sums).enumerate() {
                 let ends = [scaled_rates[0][i], scaled_rates[1][i]];
                 let rate = match i {
-                    POSITIVE if logarithmic => near(sum, ends, LEAST_SWING).exp(),
-                    POSITIVE => sum.min(2.0 * ends[0].max(ends[1])).max(0.0),
+                    DISSIPATED if logarithmic => near(sum, ends, LEAST_SWING).exp(),
+                    DISSIPATED => sum.min(2.0 * ends[0].max(ends[1])).max(0.0),
                     _ => sum,
                 };
                 *value += (time - start) * weight * rate;
@@ -205,7 +205,7 @@ mod tests {
         for step in times.windows(2) {
             integrals = integrals.after(step[1], rates(step[1]), stretch(step[0]));
         }
-        integrals.values()[POSITIVE]
+        integrals.values()[DISSIPATED]
     }
 
     #[test]
@@ -258,7 +258,7 @@ mod tests {
             let mut integrals = Integrals::new(times[0], [0.0; INTEGRALS], [rates[0], 0.0, 0.0, 0.0]);
             for step in 1..times.len() {
                 let after = integrals.after(times[step], [rates[step], 0.0, 0.0, 0.0], 0.0);
-                let more = after.values()[POSITIVE] - integrals.values()[POSITIVE];
+                let more = after.values()[DISSIPATED] - integrals.values()[DISSIPATED];
                 let most = 2.0 * (times[step] - times[step - 1]) * rates[step].max(rates[step - 1]);
                 assert!(more >= 0.0 && more <= 1.0001 * most, "{rates:?}: {more} in step {step}");
                 integrals = after;

@@ -30,7 +30,7 @@ pub use error_norm::ErrorNorm;
 pub use exponential::{Exponential, ExponentialMemory};
 pub use gmres::{Gmres, Solved, Target};
 pub use history::History;
-pub use integrals::{INTEGRALS, Integrals};
+pub use integrals::{DISSIPATED, INTEGRALS, Integrals};
 pub use linear_part::LinearPart;
 pub use memory::Memory;
 pub use multistep::Multistep;

@@ -21,6 +21,10 @@ const BRITTLE: usize = 6;
 /// Size of the second correction over the first, before it is known: the linearisation is that of the guess, so
 /// Newton's method converges quadratically.
 const FIRST_CONTRACTION: f64 = 0.02;
+/// Part of an estimated contraction that the next one keeps, as usual for BDF codes: one small correction may be luck.
+const REMEMBERED: f64 = 0.3;
+/// Corrections that grow by this factor diverge, as usual for BDF codes.
+const DIVERGING: f64 = 2.0;
 /// Accepted steps after which the preconditioner is renewed in any case.
 const OLDEST_FACTORISATION: usize = 30;
 /// Krylov iterations that an ageing preconditioner may take more than it did at first.
@@ -47,6 +51,8 @@ impl NewtonOutcome {
 /// An implicit stage y = `constant` + `gamma` f(y), to be solved to the error `goal`.
 #[derive(Clone, Copy, Debug)]
 pub struct Stage<'a> {
+    /// The norm of errors.
+    pub norm: &'a ErrorNorm,
     /// γ.
     pub gamma: f64,
     /// What does not depend on y.
@@ -62,6 +68,15 @@ impl Stage<'_> {
             *r = constant + self.gamma * *r - y;
         }
     }
+}
+
+/// How the residual of a linear solve is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Residual {
+    /// With the weights of the problem.
+    Weighted,
+    /// All coefficients alike.
+    Plain,
 }
 
 /// What a stage has taken so far.
@@ -127,7 +142,6 @@ impl NewtonKrylov {
     pub fn solve(
         &mut self,
         problem: &mut dyn Problem,
-        norm: &ErrorNorm,
         stage: &Stage<'_>,
         guess: &[f64],
         y: &mut [f64],
@@ -140,9 +154,9 @@ impl NewtonKrylov {
             let serves = self.factorisation_serves(stage.gamma);
             y.copy_from_slice(guess);
             if !serves && !self.factorise(problem, stage.gamma, counters) {
-                return failed(norm.norm(&self.correction));
+                return failed(stage.norm.norm(&self.correction));
             }
-            let outcome = self.iterate(problem, norm, stage, y, counters);
+            let outcome = self.iterate(problem, stage, y, counters);
             if outcome == NewtonOutcome::Converged {
                 self.factorisation.age += 1;
             }
@@ -173,7 +187,6 @@ impl NewtonKrylov {
     fn iterate(
         &mut self,
         problem: &mut dyn Problem,
-        norm: &ErrorNorm,
         stage: &Stage<'_>,
         y: &mut [f64],
         counters: &mut Counters,
@@ -184,17 +197,17 @@ impl NewtonKrylov {
                 problem.rate(y, &mut self.correction);
                 counters.right_hand_sides += 1;
             }
-            let size = match self.correct_by_rate(problem, norm, stage, true, y, counters) {
+            let size = match self.correct_by_rate(problem, stage, Residual::Weighted, y, counters) {
                 Ok(size) => size,
                 Err(outcome) => return outcome,
             };
             if iteration > 0 {
-                contraction = (0.3 * contraction).max(size / previous);
+                contraction = (REMEMBERED * contraction).max(size / previous);
             }
             if size * contraction.min(1.0) <= stage.goal {
                 return NewtonOutcome::Converged;
             }
-            if iteration > 0 && size > 2.0 * previous {
+            if iteration > 0 && size > DIVERGING * previous {
                 return NewtonOutcome::Failed;
             }
             previous = size;
@@ -207,7 +220,6 @@ impl NewtonKrylov {
     pub fn correct(
         &mut self,
         problem: &mut dyn Problem,
-        norm: &ErrorNorm,
         stage: &Stage<'_>,
         y: &mut [f64],
         counters: &mut Counters,
@@ -215,24 +227,25 @@ impl NewtonKrylov {
         // At the state itself: the linearisation of a guess far away converges slowly, or not at all, in stiff modes.
         problem.linearise(y, &mut self.correction);
         counters.right_hand_sides += 1;
-        self.correct_by_rate(problem, norm, stage, false, y, counters).ok()
+        self.correct_by_rate(problem, stage, Residual::Plain, y, counters).ok()
     }
 
-    /// As [`NewtonKrylov::correct`], with the rate at `y` known and the residual small in the weighted norm only if
-    /// that is `weighted`.
+    /// As [`NewtonKrylov::correct`], with the rate at `y` known and the `residual` small in its norm. What a weighted one takes
+    /// tells how the factorisation ages.
     fn correct_by_rate(
         &mut self,
         problem: &mut dyn Problem,
-        norm: &ErrorNorm,
         stage: &Stage<'_>,
-        weighted: bool,
+        residual: Residual,
         y: &mut [f64],
         counters: &mut Counters,
     ) -> Result<f64, NewtonOutcome> {
         counters.newton_iterations += 1;
         stage.residual(y, &mut self.correction);
-        let target = Target { goal: KRYLOV_SHARE * stage.goal, reduction: KRYLOV_REDUCTION, weighted };
-        let solved = self.gmres.solve(problem, norm, stage.gamma, target, &mut self.correction, counters);
+        let weighted = residual == Residual::Weighted;
+        let (norm, goal) = (stage.norm, KRYLOV_SHARE * stage.goal);
+        let target = Target { norm, goal, reduction: KRYLOV_REDUCTION, weighted };
+        let solved = self.gmres.solve(problem, stage.gamma, target, &mut self.correction, counters);
         self.effort.solves += 1;
         self.effort.iterations += solved.iterations;
         if weighted {

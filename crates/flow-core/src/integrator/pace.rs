@@ -21,13 +21,34 @@ const BETTER: f64 = 0.25;
 const BEST: f64 = 0.05;
 const WORSE: f64 = 1.1;
 
+/// A step whose error was too large is tried again with a part of it in this range, as usual for multistep codes: the estimate is not to
+/// be trusted farther down, and a step that hardly shrinks fails again.
+const SHRINKING: [f64; 2] = [0.2, 0.9];
+/// Growth where there is no error is one over this: no number that overflows.
+const NO_ERROR: f64 = 1e-6;
+/// Rates below this have no reciprocals to speak of: a state at rest.
+pub const LEAST_RATE: f64 = 1e-280;
+
 /// Steps of the scale on an octave.
 const SCALE: f64 = 16.0;
+/// Part of a step of the scale by which a factor may be below one through rounding.
+const ON_STEP: f64 = 1e-6;
+
+/// Ratio of the next step size for which an error that is `error` times what is allowed, and falls by the power `power` of the step,
+/// is just allowed.
+pub fn growth_for(error: f64, power: f64) -> f64 {
+    1.0 / (error.powf(1.0 / power) + NO_ERROR)
+}
+
+/// The factor by which a step shrinks that is tried again, from the one that its error asks for.
+pub fn shrinking(growth: f64) -> f64 {
+    growth.clamp(SHRINKING[0], SHRINKING[1])
+}
 
 /// The next factor below on a geometric scale. Estimates of errors are differences, whose rounding would go on to all
 /// steps; so it goes on only where it tips the scale.
 pub fn on_scale(factor: f64) -> f64 {
-    ((SCALE * factor.log2() + 1e-6).floor() / SCALE).exp2()
+    ((SCALE * factor.log2() + ON_STEP).floor() / SCALE).exp2()
 }
 
 /// Order and size of the next step, and how the steps before went.

@@ -1,6 +1,8 @@
 //! What is integrated: a right-hand side, its Jacobian, and what a finished step must know.
 
-use super::integrals::INTEGRALS;
+use std::ops::Range;
+
+use super::integrals::{DISSIPATED, INTEGRALS};
 use super::linear_part::LinearPart;
 
 /// A system dy/dt = f(y) with an implicit operator I − γJ, J ≈ f′, along whose solutions an energy falls.
@@ -13,10 +15,14 @@ use super::linear_part::LinearPart;
 pub trait Problem {
     /// Length of the state.
     fn size(&self) -> usize;
-    /// Consecutive blocks of the state; errors are relative to the norm of each block.
-    fn blocks(&self) -> Vec<std::ops::Range<usize>>;
+    /// Consecutive blocks of the state; errors are relative to the norm of each block. One of all, if not said otherwise.
+    fn blocks(&self) -> Vec<Range<usize>> {
+        std::iter::once(0..self.size()).collect()
+    }
     /// Least square norm |`y_b|²` that a block's error is compared with.
-    fn block_floor(&self, block: usize, y: &[f64]) -> f64;
+    fn block_floor(&self, _block: usize, _y: &[f64]) -> f64 {
+        f64::MIN_POSITIVE
+    }
     /// f(y) into `rate`.
     fn rate(&mut self, y: &[f64], rate: &mut [f64]);
     /// Freezes J at `y`; f(y) into `rate`.
@@ -27,10 +33,10 @@ pub trait Problem {
     fn factorise(&mut self, gamma: f64) -> bool;
     /// Overwrites `r` by the approximate solution of (I − γJ)x = r.
     fn precondition(&mut self, r: &mut [f64]);
-    /// Weighs a residual of (I − γJ)x = r by how much its coefficients matter.
-    fn weigh(&self, r: &mut [f64]);
+    /// Weighs a residual of (I − γJ)x = r by how much its coefficients matter; all alike, if not said otherwise.
+    fn weigh(&self, _r: &mut [f64]) {}
     /// Undoes [`Problem::weigh`].
-    fn unweigh(&self, r: &mut [f64]);
+    fn unweigh(&self, _r: &mut [f64]) {}
     /// Overwrites the residual `r` of a stage y = a + γf(y) by a change of y that makes good the stiff part of what J, which is
     /// that of a guess, has missed; false if there is none.
     fn settle(&mut self, _gamma: f64, _r: &mut [f64]) -> bool {
@@ -38,7 +44,9 @@ pub trait Problem {
     }
     /// Tells how many Krylov iterations a solve took; true if the preconditioner changed its kind and
     /// must be prepared anew.
-    fn krylov_feedback(&mut self, iterations: usize) -> bool;
+    fn krylov_feedback(&mut self, _iterations: usize) -> bool {
+        false
+    }
     /// Puts the candidate `y` back onto the constraints; evaluates what a finished step must know.
     fn finish(&mut self, time: f64, y: &mut [f64]) -> Finish;
     /// Whether the energy tells that the flow is at rest: true if f vanishes wherever the energy no longer falls, as in a gradient
@@ -66,7 +74,7 @@ pub trait Problem {
         false
     }
     /// Tells that the state finished last was accepted, with the integrals at it.
-    fn accepted(&mut self, time: f64, integrals: [f64; INTEGRALS]);
+    fn accepted(&mut self, _time: f64, _integrals: [f64; INTEGRALS]) {}
 }
 
 /// What a problem says of a candidate state.
@@ -76,9 +84,7 @@ pub enum Finish {
     Good {
         /// Energy, which may not rise along f; a constant where there is none.
         energy: f64,
-        /// Dissipation −dE/dt = −∇E·f ≥ 0, exactly.
-        dissipation: f64,
-        /// Rates of the integrals carried along; the first is the dissipation.
+        /// Rates of the integrals carried along. The one at [`DISSIPATED`] is the dissipation −dE/dt = −∇E·f ≥ 0, exactly.
         integral_rates: [f64; INTEGRALS],
     },
     /// A value is NaN or infinite, or a constraint cannot be met.
@@ -89,7 +95,7 @@ impl Finish {
     /// The dissipation; infinite where there is none.
     pub(super) fn dissipation(&self) -> f64 {
         match self {
-            Self::Good { dissipation, .. } => *dissipation,
+            Self::Good { integral_rates, .. } => integral_rates[DISSIPATED],
             Self::NotFinite => f64::INFINITY,
         }
     }

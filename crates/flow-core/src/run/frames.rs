@@ -3,11 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 use super::diagnostics::{Diagnostics, Evaluated};
-use super::membrane::{ANGLE, CENTRE, DISSIPATED, Membrane};
+use super::membrane::{ANGLE, CENTRE, Membrane};
 use super::record::Frame;
 use crate::flow::Rate;
 use crate::geometry::{StateRef, enclosed_area};
-use crate::integrator::{Finish, INTEGRALS, Problem};
+use crate::integrator::{DISSIPATED, Finish, INTEGRALS, Problem};
 
 /// Evaluates all that a frame holds, for a spectral state, which is closed in place.
 ///
@@ -29,7 +29,7 @@ pub fn frame(
     let layout = membrane.layout();
     // A state that was finished has been evaluated; one that is not finite is shown as it is.
     let rate = match finish {
-        Finish::Good { energy, dissipation, .. } => Rate { energy, dissipation },
+        Finish::Good { energy, integral_rates } => Rate { energy, dissipation: integral_rates[DISSIPATED] },
         Finish::NotFinite => membrane.flow().spectral_dissipation(y),
     };
     let normal_velocity = membrane.flow().normal_velocity().to_vec();

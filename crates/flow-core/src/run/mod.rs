@@ -47,7 +47,7 @@ pub use equilibrium::Equilibrium;
 pub use evaluation::{Evaluation, EvaluationError, evaluate};
 pub use failure::Failure;
 pub use interpolant::Interpolant;
-pub use membrane::{ANGLE, CENTRE, DISSIPATED, Membrane, MembraneMemory};
+pub use membrane::{ANGLE, CENTRE, Membrane, MembraneMemory};
 pub use nodal_lines::nodal_polylines;
 pub use observer::{Observer, Progress, Quiet};
 pub use prediction::{Prediction, Trial, predict};

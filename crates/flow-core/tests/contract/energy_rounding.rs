@@ -1,7 +1,7 @@
 //! The rounding of the energy, (I9), and its derivative along a direction, (I6).
 
 use flow_core::flow::LinearSolver;
-use flow_core::integrator::{Clocked, Finish, Problem, Stopwatch};
+use flow_core::integrator::{Clocked, DISSIPATED, Finish, Problem, Stopwatch};
 use flow_core::run::Membrane;
 
 use crate::states::{fixed_blob, spectral};
@@ -51,9 +51,10 @@ fn along_its_rate_the_energy_falls_by_the_dissipation_and_clocks_pass_that_on() 
             let state = fixed_blob().state(nodes, term.densities());
             let mut membrane = Membrane::new(flow(term, family, state.layout), LinearSolver::Auto, 1, 0.0);
             let mut y = spectral(state.layout, &state.y);
-            let Finish::Good { dissipation, .. } = membrane.finish(0.0, &mut y) else {
+            let Finish::Good { integral_rates, .. } = membrane.finish(0.0, &mut y) else {
                 panic!("{term:?}, {family:?}")
             };
+            let dissipation = integral_rates[DISSIPATED];
             let mut rate = vec![0.0; y.len()];
             membrane.finished_rate(&y, &mut rate);
             let slope = membrane.energy_slope(&rate).unwrap();

@@ -5,7 +5,7 @@ use std::ops::Range;
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat};
 use flow_core::flow::LinearSolver;
-use flow_core::integrator::{Counters, ErrorNorm, Finish, Gmres, INTEGRALS, Problem, Target};
+use flow_core::integrator::{Counters, ErrorNorm, Finish, Gmres, Problem, Target};
 use flow_core::operators::DerivativeFamily;
 use flow_core::run::Membrane;
 
@@ -17,8 +17,8 @@ use crate::vectors::{distance, largest, motion, noise};
 /// A linear system with a dense matrix, without a preconditioner.
 struct DenseSystem(Mat<f64>);
 
-fn target(goal: f64, reduction: f64) -> Target {
-    Target { goal, reduction, weighted: false }
+fn target(norm: &ErrorNorm, goal: f64, reduction: f64) -> Target<'_> {
+    Target { norm, goal, reduction, weighted: false }
 }
 
 impl Problem for DenseSystem {
@@ -28,10 +28,6 @@ impl Problem for DenseSystem {
 
     fn blocks(&self) -> Vec<Range<usize>> {
         vec![0..self.size() / 2, self.size() / 2..self.size()]
-    }
-
-    fn block_floor(&self, _: usize, _: &[f64]) -> f64 {
-        f64::MIN_POSITIVE
     }
 
     fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
@@ -46,27 +42,15 @@ impl Problem for DenseSystem {
 
     fn precondition(&mut self, _: &mut [f64]) {}
 
-    fn krylov_feedback(&mut self, _: usize) -> bool {
-        false
-    }
-
     fn rate(&mut self, _: &[f64], _: &mut [f64]) {
         unreachable!("only linear solves")
     }
-
-    fn weigh(&self, _: &mut [f64]) {}
-
-    fn unweigh(&self, _: &mut [f64]) {}
 
     fn linearise(&mut self, _: &[f64], _: &mut [f64]) {
         unreachable!("only linear solves")
     }
 
     fn finish(&mut self, _: f64, _: &mut [f64]) -> Finish {
-        unreachable!("only linear solves")
-    }
-
-    fn accepted(&mut self, _: f64, _: [f64; INTEGRALS]) {
         unreachable!("only linear solves")
     }
 }
@@ -86,9 +70,8 @@ fn gmres_finds_the_solution_of_a_dense_factorisation() {
         let mut counters = Counters::default();
         let solved = Gmres::new(size, size).solve(
             &mut system,
-            &norm,
             gamma,
-            target(1e-13, 1.0),
+            target(&norm, 1e-13, 1.0),
             &mut x,
             &mut counters,
         );
@@ -112,7 +95,7 @@ fn gmres_stops_at_the_goal() {
     for goal in [1e-1, 1e-4, 1e-8] {
         let right = noise(1, size);
         let mut x = right.clone();
-        let solved = gmres.solve(&mut system, &norm, 1.0, target(goal, 1.0), &mut x, &mut counters);
+        let solved = gmres.solve(&mut system, 1.0, target(&norm, goal, 1.0), &mut x, &mut counters);
         let mut residual = vec![0.0; size];
         system.jacobian_product(&x, &mut residual);
         for i in 0..size {
@@ -177,7 +160,7 @@ fn iterations((mut membrane, y): (Membrane, Vec<f64>), gamma: f64) -> usize {
     }
     let mut counters = Counters::default();
     let mut gmres = Gmres::new(r.len(), MOST_ITERATIONS);
-    gmres.solve(&mut membrane, &norm, gamma, target(f64::INFINITY, 1e-6), &mut r, &mut counters).iterations
+    gmres.solve(&mut membrane, gamma, target(&norm, f64::INFINITY, 1e-6), &mut r, &mut counters).iterations
 }
 
 const MOST_ITERATIONS: usize = 60;

@@ -1,7 +1,5 @@
 //! A problem of one unknown, for tests of the step loop and its methods.
 
-use std::ops::Range;
-
 use flow_core::integrator::{Finish, INTEGRALS, LinearPart, Problem};
 
 /// ẏ = f(y), and what a finished step says of itself.
@@ -56,16 +54,6 @@ impl<L: Law> Problem for Scalar<L> {
         1
     }
 
-    // One block.
-    #[allow(clippy::single_range_in_vec_init)]
-    fn blocks(&self) -> Vec<Range<usize>> {
-        vec![0..1]
-    }
-
-    fn block_floor(&self, _: usize, _: &[f64]) -> f64 {
-        f64::MIN_POSITIVE
-    }
-
     fn rate(&mut self, y: &[f64], rate: &mut [f64]) {
         rate[0] = self.law.rate(y[0]);
     }
@@ -85,10 +73,6 @@ impl<L: Law> Problem for Scalar<L> {
 
     fn precondition(&mut self, _: &mut [f64]) {}
 
-    fn weigh(&self, _: &mut [f64]) {}
-
-    fn unweigh(&self, _: &mut [f64]) {}
-
     fn settle(&mut self, _: f64, r: &mut [f64]) -> bool {
         self.law.settle().is_some_and(|change| {
             r[0] = change;
@@ -96,13 +80,9 @@ impl<L: Law> Problem for Scalar<L> {
         })
     }
 
-    fn krylov_feedback(&mut self, _: usize) -> bool {
-        false
-    }
-
     fn finish(&mut self, time: f64, y: &mut [f64]) -> Finish {
         let (energy, integral_rates) = self.law.word(time, y[0]);
-        Finish::Good { energy, dissipation: integral_rates[0], integral_rates }
+        Finish::Good { energy, integral_rates }
     }
 
     fn linear_part(&mut self, y: &[f64], part: &mut LinearPart) -> bool {

@@ -17,9 +17,9 @@ use flow_core::energies::{Bending, EnergyTerm, Length, Membrane as Compression};
 use flow_core::flow::{CoMoving, EnergySum, Exchange, FlowMap, Gauge, GradientFlow, LinearSolver};
 use flow_core::geometry::shapes::Shape;
 use flow_core::geometry::{Closure, Complex64, Grading, Layout, PeriodicGrid, SpectralLayout};
-use flow_core::integrator::{Adaptive, AdaptiveOptions, Bdf, Counters, Finish, Problem};
+use flow_core::integrator::{Adaptive, AdaptiveOptions, Bdf, Counters, DISSIPATED, Finish, Problem};
 use flow_core::operators::{Derivative, DerivativeFamily};
-use flow_core::run::{DISSIPATED, Membrane};
+use flow_core::run::Membrane;
 
 use gauge::Partly;
 use parts::{Drag, Quartic, SlowExchange};

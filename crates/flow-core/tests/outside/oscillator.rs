@@ -1,7 +1,5 @@
 //! A problem that is no gradient flow.
 
-use std::ops::Range;
-
 use flow_core::integrator::{Adaptive, AdaptiveOptions, Bdf, Counters, Finish, INTEGRALS, Problem, Stepper};
 
 /// y″ = −y, which tells a constant energy.
@@ -10,16 +8,6 @@ struct Oscillator;
 impl Problem for Oscillator {
     fn size(&self) -> usize {
         2
-    }
-
-    // One block.
-    #[allow(clippy::single_range_in_vec_init)]
-    fn blocks(&self) -> Vec<Range<usize>> {
-        vec![0..2]
-    }
-
-    fn block_floor(&self, _: usize, _: &[f64]) -> f64 {
-        f64::MIN_POSITIVE
     }
 
     fn rate(&mut self, y: &[f64], rate: &mut [f64]) {
@@ -40,19 +28,9 @@ impl Problem for Oscillator {
 
     fn precondition(&mut self, _: &mut [f64]) {}
 
-    fn weigh(&self, _: &mut [f64]) {}
-
-    fn unweigh(&self, _: &mut [f64]) {}
-
-    fn krylov_feedback(&mut self, _: usize) -> bool {
-        false
-    }
-
     fn finish(&mut self, _: f64, _: &mut [f64]) -> Finish {
-        Finish::Good { energy: 1.0, dissipation: 0.0, integral_rates: [0.0; INTEGRALS] }
+        Finish::Good { energy: 1.0, integral_rates: [0.0; INTEGRALS] }
     }
-
-    fn accepted(&mut self, _: f64, _: [f64; INTEGRALS]) {}
 }
 
 /// An energy that stays the same does not tell that the state does: with the steps held that fail once it has stayed so while the time

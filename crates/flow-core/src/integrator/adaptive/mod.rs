@@ -3,9 +3,9 @@
 mod parts;
 
 use super::balance::{BALANCED, ENERGY_ROUNDING, IMBALANCE, growth_in_balance, share_lost};
-use super::integrals::POSITIVE;
 use super::{
-    Counters, Finish, INTEGRALS, IntegrationError, Problem, Rejection, Rejections, Rest, StepReport, Stepper,
+    Counters, DISSIPATED, Finish, INTEGRALS, IntegrationError, Problem, Rejection, Rejections, Rest,
+    StepReport, Stepper,
 };
 
 /// Settings of the loop.
@@ -58,9 +58,8 @@ impl<S: Stepper> Adaptive<S> {
     }
 
     /// Goes on with a watch that was kept before.
-    #[must_use]
-    pub fn watched(self, rest: Rest) -> Self {
-        Self { rest, ..self }
+    pub fn watch_on(&mut self, rest: Rest) {
+        self.rest = rest;
     }
 
     /// Takes one step, trying again until one is accepted.
@@ -170,14 +169,15 @@ impl<S: Stepper> Adaptive<S> {
         }
         match finish {
             Finish::NotFinite => Err(self.refuse(Rejection::NotFinite, LEAST_FACTOR)),
-            Finish::Good { energy, dissipation, .. } if self.rises(problem, energy) => {
+            Finish::Good { energy, .. } if self.rises(problem, energy) => {
                 let rounding = self.rounding(problem, energy);
-                self.idle = energy <= self.energy + 2.0 * rounding && dissipation * time <= rounding;
+                self.idle = energy <= self.energy + 2.0 * rounding && finish.dissipation() * time <= rounding;
                 Err(self.refuse(Rejection::EnergyRise, LEAST_FACTOR))
             }
-            Finish::Good { energy, dissipation, mut integral_rates } => {
+            Finish::Good { energy, mut integral_rates } => {
+                let dissipation = integral_rates[DISSIPATED];
                 // A step that loses less than the rounding of the energy has moved the state by rounding.
-                integral_rates[POSITIVE] = if dissipation * size > ENERGY_ROUNDING * energy.abs() {
+                integral_rates[DISSIPATED] = if dissipation * size > ENERGY_ROUNDING * energy.abs() {
                     self.stepper.dissipation(problem, dissipation)
                 } else {
                     dissipation
@@ -189,7 +189,7 @@ impl<S: Stepper> Adaptive<S> {
                 if !(imbalance < BALANCED && (energy - self.energy).abs() > PLAIN * energy.abs()) {
                     rounding = self.rounding(problem, energy);
                     // Times, and so the size of the step, and the integral are known to a unit in the last place.
-                    let dissipated = integral_rates[POSITIVE] * time.abs() + integrals.values()[POSITIVE];
+                    let dissipated = integral_rates[DISSIPATED] * time.abs() + integrals.values()[DISSIPATED];
                     let of_balance = rounding + f64::EPSILON * dissipated.abs();
                     imbalance = self.imbalance(energy, of_balance, integrals.values());
                 }
@@ -203,7 +203,7 @@ impl<S: Stepper> Adaptive<S> {
                 self.energy = energy;
                 self.stepper.accept(problem, integrals, growth_in_balance(imbalance));
                 problem.accepted(time, self.stepper.integrals());
-                Ok((energy, [dissipation, integral_rates[POSITIVE].min(dissipation)]))
+                Ok((energy, [dissipation, integral_rates[DISSIPATED].min(dissipation)]))
             }
         }
     }
@@ -238,7 +238,7 @@ impl<S: Stepper> Adaptive<S> {
     /// How far the energy lost in the step to the candidate and the integral of the dissipation are apart: far, if the
     /// step is too large for a transient that the norm of the state does not see. In units of what is allowed.
     fn imbalance(&self, energy: f64, rounding: f64, integrals: [f64; INTEGRALS]) -> f64 {
-        let dissipated = integrals[POSITIVE] - self.stepper.integrals()[POSITIVE];
+        let dissipated = integrals[DISSIPATED] - self.stepper.integrals()[DISSIPATED];
         let scale = self.energy.abs().max(energy.abs());
         let allowed = IMBALANCE * self.options.energy_tolerance * scale + rounding;
         (energy - self.energy + dissipated).abs() / allowed.max(f64::MIN_POSITIVE)
@@ -252,9 +252,10 @@ impl<S: Stepper> Adaptive<S> {
     /// Whether the dissipation does not fit the energy lost in the step: the implicit solve has left errors in
     /// stiff modes that the norm of the state does not see.
     fn is_rough(&mut self, problem: &mut dyn Problem, finish: &Finish, size: f64) -> bool {
-        let Finish::Good { energy, dissipation, .. } = finish else { return false };
+        let Finish::Good { energy, .. } = finish else { return false };
         let lost = (self.energy - energy).abs();
         self.rises(problem, *energy)
-            || dissipation * size > ROUGH * lost + UNSEEN * self.options.energy_tolerance * energy.abs()
+            || finish.dissipation() * size
+                > ROUGH * lost + UNSEEN * self.options.energy_tolerance * energy.abs()
     }
 }

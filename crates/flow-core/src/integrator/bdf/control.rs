@@ -2,10 +2,14 @@
 
 use super::{Bdf, Clock, HIGHEST_ORDER};
 use crate::integrator::clock;
-use crate::integrator::pace::Next;
+use crate::integrator::pace::{LEAST_RATE, Next, growth_for};
 
 /// Safety factors on the error of order k − 1, k, k + 1: a change of order must pay.
 const BIAS: [f64; 3] = [4.0, 4.0, 6.0];
+/// … and on that of a step which is tried again: less, since its error is known.
+pub(super) const BIAS_OF_FAILED: f64 = 2.0;
+/// Part of the tolerance's root by which the first step moves the state.
+const FIRST_PART: f64 = 0.1;
 
 /// A stage that takes more than one solve, and more Krylov iterations than this in them, is one of a step that is too long to pay: …
 const DEAR: usize = 10;
@@ -16,7 +20,7 @@ const RECOVERY: f64 = 1.1;
 
 /// A first step that moves the state by a small part of the tolerance's root: order 1 has error O(h²).
 pub(super) fn first_step(tolerance: f64, rate: f64) -> f64 {
-    0.1 * tolerance.sqrt() / rate.max(1e-280)
+    FIRST_PART * tolerance.sqrt() / rate.max(LEAST_RATE)
 }
 
 impl Bdf {
@@ -53,7 +57,7 @@ impl Bdf {
 
     /// Ratio of the next step size that keeps an error at the tolerance.
     pub(super) fn growth(&self, error: f64, order: usize, bias: f64) -> f64 {
-        1.0 / ((bias * error / self.tolerance).powf(1.0 / (order + 1) as f64) + 1e-6)
+        growth_for(bias * error / self.tolerance, (order + 1) as f64)
     }
 
     /// The rate of the clock that would have served this step best, with how much its polynomial misses.

@@ -13,10 +13,10 @@ use super::history::{History, MOST_POINTS, Weights, lagrange};
 use super::integrals::Integrals;
 use super::memory::Memory;
 use super::newton::{Factorisation, NewtonKrylov, NewtonOutcome, Stage};
-use super::pace::Pace;
+use super::pace::{Pace, shrinking};
 use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
 use crate::geometry::vectors::add_scaled;
-use control::first_step;
+use control::{BIAS_OF_FAILED, first_step};
 
 /// Highest order of the formulas that are stable enough.
 pub(super) const HIGHEST_ORDER: usize = 5;
@@ -29,6 +29,9 @@ const LOOSE_POWER: f64 = 0.25;
 /// Newton's method is solved to this part of the local tolerance: the square of its error, weighted by the
 /// stiffness, enters the dissipation and with it the energy balance.
 const NEWTON_SHARE: f64 = 0.4;
+
+/// A step whose stage was not solved is tried again with this part of it, as usual for BDF codes.
+const NEWTON_CUT: f64 = 0.25;
 
 /// Local error for which the global error is about the tolerance.
 fn local_tolerance(tolerance: f64) -> f64 {
@@ -203,12 +206,10 @@ impl Stepper for Bdf {
         let shifted: [f64; MOST_POINTS] =
             std::array::from_fn(|i| weights.value[i] - gamma * weights.derivative[i]);
         self.history.combine(&shifted, points, &mut self.constant);
-        let stage = Stage { gamma, constant: &self.constant, goal: self.goal() };
-        let outcome =
-            self.newton.solve(problem, &self.norm, &stage, &self.predicted, &mut self.candidate, counters);
+        let stage = Stage { norm: &self.norm, gamma, constant: &self.constant, goal: self.goal() };
+        let outcome = self.newton.solve(problem, &stage, &self.predicted, &mut self.candidate, counters);
         if outcome != NewtonOutcome::Converged {
-            self.pace.failures += 1;
-            self.pace.step *= 0.25;
+            self.pace.fail(NEWTON_CUT);
             return Err(outcome.rejection());
         }
         for ((difference, y), predicted) in
@@ -218,9 +219,9 @@ impl Stepper for Bdf {
         }
         let error = self.error_factor() * self.norm.norm(&self.difference);
         if error > self.tolerance {
-            let growth = self.growth(error, self.pace.order, 2.0);
+            let growth = self.growth(error, self.pace.order, BIAS_OF_FAILED);
             self.pace.solve_better();
-            self.pace.fail(growth.clamp(0.2, 0.9));
+            self.pace.fail(shrinking(growth));
             return Err(Rejection::Error);
         }
         Ok(())
@@ -229,7 +230,7 @@ impl Stepper for Bdf {
     fn settle(&mut self, problem: &mut dyn Problem) -> bool {
         let gamma = self.gamma();
         problem.finished_rate(&self.candidate, &mut self.difference);
-        let stage = Stage { gamma, constant: &self.constant, goal: self.goal() };
+        let stage = Stage { norm: &self.norm, gamma, constant: &self.constant, goal: self.goal() };
         stage.residual(&self.candidate, &mut self.difference);
         let settles = problem.settle(gamma, &mut self.difference);
         if settles {
@@ -244,8 +245,8 @@ impl Stepper for Bdf {
 
     fn polish(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> bool {
         let gamma = self.gamma();
-        let stage = Stage { gamma, constant: &self.constant, goal: self.goal() };
-        self.newton.correct(problem, &self.norm, &stage, &mut self.candidate, counters).is_some()
+        let stage = Stage { norm: &self.norm, gamma, constant: &self.constant, goal: self.goal() };
+        self.newton.correct(problem, &stage, &mut self.candidate, counters).is_some()
     }
 
     /// −⟨∇𝓕, ẏ⟩ with the derivative ẏ of the polynomial that is the step. An error e that the solve leaves in stiff modes, where

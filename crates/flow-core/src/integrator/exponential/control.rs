@@ -8,10 +8,12 @@ use super::sums::Correction;
 use super::{Exponential, MOST_CHANGES, weights_at_end};
 use crate::integrator::Rejection;
 use crate::integrator::clock;
-use crate::integrator::pace::{Next, on_scale};
+use crate::integrator::pace::{Next, growth_for, on_scale, shrinking};
 
 /// Safety factors on the error of order k − 1, k, k + 1: a change of order must pay.
 const BIAS: [f64; 3] = [3.0, 2.0, 3.0];
+/// What the power of the step size in the error is above the order: between that where Λ is stiff, 1, and that where it is not, 2.
+const BETWEEN_ORDERS: f64 = 1.5;
 /// Contraction of the corrector above which what it leaves out, the stiffness of N, limits the steps.
 const STIFF: f64 = 0.4;
 /// … or its multiple of that from which on errors grow from step to step, where that is less.
@@ -56,7 +58,7 @@ fn stiff(order: usize) -> f64 {
 impl Exponential {
     /// Ratio of the next step size that keeps an error of order `order` at the tolerance.
     fn growth(&self, error: f64, order: usize, bias: f64) -> f64 {
-        1.0 / ((bias * error / self.tolerance).powf(1.0 / (order as f64 + 1.5)) + 1e-6)
+        growth_for(bias * error / self.tolerance, order as f64 + BETWEEN_ORDERS)
     }
 
     /// After an attempt that was thrown away.
@@ -119,7 +121,7 @@ impl Exponential {
             return Ok(());
         }
         let growth = if error.is_finite() { self.growth(error, order, BIAS[1]) } else { 0.0 };
-        self.fail(growth.clamp(0.2, 0.9));
+        self.fail(shrinking(growth));
         Err(if error.is_finite() { Rejection::Error } else { Rejection::NotFinite })
     }
 

@@ -5,13 +5,15 @@ use crate::integrator::error_norm::ErrorNorm;
 use crate::integrator::linear_part::LinearPart;
 use crate::integrator::memory::Memory;
 use crate::integrator::newton::Factorisation;
-use crate::integrator::pace::Pace;
+use crate::integrator::pace::{LEAST_RATE, Pace};
 use crate::integrator::{Counters, Integrals, Problem};
 
 /// Values of N that the first prediction goes through.
 const ORDER: usize = 2;
 /// Part of the first step by which the value before the start lies apart: short enough for its series, long enough for a difference.
 const APART: f64 = 0.1;
+/// Part of the tolerance's cube root by which the first step moves the state.
+const FIRST_PART: f64 = 0.2;
 
 /// What the method knows at the start of a trajectory: the state `y`, with Λ = `part` and the linearisation of `problem` at it, and a
 /// state before, both with their rates. The prediction through them is N with its slope.
@@ -46,6 +48,6 @@ pub fn start(
 /// A first step that moves the state by a small part of the tolerance's cube root, by its rate and by the slope of that: the error of
 /// order 2 is O(h³). At rest the rate is rounding, and the slope tells how much of it.
 fn first_step(tolerance: f64, rate: f64, slope: f64) -> f64 {
-    let part = 0.2 * tolerance.cbrt();
-    part / rate.max((part * slope).sqrt()).max(1e-280)
+    let part = FIRST_PART * tolerance.cbrt();
+    part / rate.max((part * slope).sqrt()).max(LEAST_RATE)
 }

@@ -68,9 +68,8 @@ fn to_sections(
     bytes
 }
 
-/// Vectors and numbers in memory are always encoded.
 fn to_bytes<T: Serialize + ?Sized>(value: &T) -> Vec<u8> {
-    postcard::to_stdvec(value).unwrap_or_default()
+    postcard::to_stdvec(value).expect("texts, numbers and lists of known length are always encoded")
 }
 
 /// The checkpoint that `bytes`, read from `path`, hold.

@@ -13,8 +13,23 @@ pub struct MembraneMemory {
     solver: Choice,
     kept: KeptValues,
     start_angle: f64,
-    placed: [f64; 3],
-    factorised: (Vec<f64>, f64),
+    placed: Placed,
+    factorised: Factorised,
+}
+
+/// The mean tangent angle at the last accepted state.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Placed {
+    pub time: f64,
+    pub angle: f64,
+    pub angle_rate: f64,
+}
+
+/// The spectral state of a factorisation, with its γ.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Factorised {
+    pub state: Vec<f64>,
+    pub gamma: f64,
 }
 
 impl Membrane {
@@ -32,7 +47,7 @@ impl Membrane {
 
     /// Goes on from `memory`, with the factorisation that it speaks of if that is `needed`; false if it does not fit.
     pub fn resume(&mut self, memory: MembraneMemory, needed: bool) -> bool {
-        let (state, gamma) = memory.factorised;
+        let Factorised { state, gamma } = memory.factorised;
         if state.len() != self.flow.spectral_layout().len() || !self.invariants.set_kept_values(memory.kept) {
             return false;
         }

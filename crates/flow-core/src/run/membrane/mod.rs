@@ -13,11 +13,10 @@ use crate::geometry::vectors::{mean_of_product, multiply, sum};
 use crate::geometry::{Closure, Crossings, Embedding, Layout};
 use crate::integrator::{Finish, INTEGRALS, LinearPart, Problem};
 pub use memory::MembraneMemory;
+use memory::{Factorised, Placed};
 use solver::Solver;
 
-/// Index of ∫ dissipation dt among the integrals.
-pub const DISSIPATED: usize = 0;
-/// Index of the mean tangent angle.
+/// Index of the mean tangent angle among the integrals, of which the dissipation is the first.
 pub const ANGLE: usize = 1;
 /// Indices of the mean position.
 pub const CENTRE: Range<usize> = 2..4;
@@ -35,14 +34,13 @@ pub struct Membrane {
     invariants: Invariants,
     /// Mean tangent angle where the integrals start.
     start_angle: f64,
-    /// Time, angle and rate of the angle at the last accepted state; rate at the candidate.
-    placed: [f64; 3],
+    placed: Placed,
     candidate_angle_rate: f64,
     /// Whether the choice of the method is free, and the flow has a linear part in Fourier space.
     may_be_exponential: bool,
-    /// The spectral state of the linearisation, and that of the factorisation with its γ.
+    /// The spectral state of the linearisation.
     linearised: Vec<f64>,
-    factorised: (Vec<f64>, f64),
+    factorised: Factorised,
 }
 
 impl Membrane {
@@ -61,11 +59,11 @@ impl Membrane {
             tangential: vec![0.0; nodes],
             closure_defect: 0.0,
             start_angle: angle,
-            placed: [0.0, angle, 0.0],
+            placed: Placed { time: 0.0, angle, angle_rate: 0.0 },
             candidate_angle_rate: 0.0,
             may_be_exponential,
             linearised: vec![0.0; size],
-            factorised: (vec![0.0; size], 0.0),
+            factorised: Factorised { state: vec![0.0; size], gamma: 0.0 },
         }
     }
 
@@ -208,8 +206,8 @@ impl Problem for Membrane {
     }
 
     fn factorise(&mut self, gamma: f64) -> bool {
-        self.factorised.0.copy_from_slice(&self.linearised);
-        self.factorised.1 = gamma;
+        self.factorised.state.copy_from_slice(&self.linearised);
+        self.factorised.gamma = gamma;
         self.flow.linearisation_fault().is_none() && self.solver.factorise(&mut self.flow, gamma)
     }
 
@@ -236,7 +234,7 @@ impl Problem for Membrane {
     fn finish(&mut self, time: f64, y: &mut [f64]) -> Finish {
         let layout = self.flow.spectral_layout();
         let length = y[layout.length_index()];
-        let [start, angle, angle_rate] = self.placed;
+        let Placed { time: start, angle, angle_rate } = self.placed;
         let usable = length > 0.0 && sum(y).is_finite();
         if !usable || !self.follow_metric(y) {
             return Finish::NotFinite;
@@ -254,7 +252,7 @@ impl Problem for Membrane {
         }
         let integral_rates = self.integral_rates(rate);
         self.candidate_angle_rate = integral_rates[ANGLE];
-        Finish::Good { energy: rate.energy, dissipation: rate.dissipation, integral_rates }
+        Finish::Good { energy: rate.energy, integral_rates }
     }
 
     fn finished_rate(&mut self, _: &[f64], rate: &mut [f64]) {
@@ -283,6 +281,7 @@ impl Problem for Membrane {
     }
 
     fn accepted(&mut self, time: f64, integrals: [f64; INTEGRALS]) {
-        self.placed = [time, self.start_angle + integrals[ANGLE], self.candidate_angle_rate];
+        let (angle, angle_rate) = (self.start_angle + integrals[ANGLE], self.candidate_angle_rate);
+        self.placed = Placed { time, angle, angle_rate };
     }
 }

@@ -101,8 +101,8 @@ impl Accuracy {
         let tolerance = section.get("tolerance");
         let tolerance = tolerance.and_then(|entry| entry.number(TOLERANCE, "try 1e-5, the default"));
         let nodes = section.get("nodes").and_then(|entry| read_nodes(&entry));
-        let derivative = section.get("derivative").and_then(|entry| entry.choice(&[]));
-        let linear_solver = section.get("linear_solver").and_then(|entry| entry.choice(&[]));
+        let derivative = section.get("derivative").and_then(|entry| entry.choice());
+        let linear_solver = section.get("linear_solver").and_then(|entry| entry.choice());
         check_mobility(&section, mobility, nodes);
         section.finish();
         Self {

@@ -96,7 +96,7 @@ impl Curve {
             "points" => through_points(&mut section),
             "figure-eight" => figure_eight(&mut section),
             unknown => {
-                shape?.not_a_choice(unknown, SHAPES.to_vec(), &[]);
+                shape?.not_a_choice(unknown, SHAPES.to_vec());
                 return None;
             }
         };

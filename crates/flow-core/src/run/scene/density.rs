@@ -112,7 +112,7 @@ impl Density {
         let initial = section.required("initial", "initial = \"0.5 + 0.1*cos(2*pi*s)\"");
         let initial = initial.and_then(|entry| entry.formula(&["s"]));
         let mobility = section.required("mobility", "mobility = \"diffusion\"");
-        let mobility: Option<DensityMobility> = mobility.and_then(|entry| entry.choice(&[]));
+        let mobility: Option<DensityMobility> = mobility.and_then(|entry| entry.choice());
         let weight =
             section.get("weight").map(|entry| entry.positive_formula("s", "add a constant, for example 0.1"));
         if let Some(other) = mobility.filter(|m| weight.is_some() && *m != DensityMobility::Diffusion) {

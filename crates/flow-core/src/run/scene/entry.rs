@@ -88,22 +88,19 @@ impl<'d> Entry<'d> {
         self.value.as_str().or_else(|| self.wrong_type("text in quotes"))
     }
 
-    /// One of the names of `T`; `planned` are names of later versions.
-    pub(super) fn choice<T: Choice>(&self, planned: &[&'static str]) -> Option<T> {
+    /// One of the names of `T`.
+    pub(super) fn choice<T: Choice>(&self) -> Option<T> {
         let text = self.text()?;
         if let Some(&choice) = T::ALL.iter().find(|choice| choice.name() == text) {
             return Some(choice);
         }
         let allowed: Vec<&'static str> = T::ALL.iter().map(|choice| choice.name()).collect();
-        self.not_a_choice(text, allowed, planned);
+        self.not_a_choice(text, allowed);
         None
     }
 
-    /// Reports a name that is unknown or not available yet.
-    pub(super) fn not_a_choice(&self, text: &str, allowed: Vec<&'static str>, planned: &[&'static str]) {
-        if planned.contains(&text) {
-            return self.report.unsupported(&self.path, &self.span, Some(text), allowed);
-        }
+    /// Reports a name that is unknown.
+    pub(super) fn not_a_choice(&self, text: &str, allowed: Vec<&'static str>) {
         let suggestion = nearest(text, allowed.iter().copied()).map(str::to_owned);
         self.fault(Fault::UnknownName { value: text.to_owned(), suggestion, allowed });
     }

@@ -107,8 +107,6 @@ pub enum Fault {
     WrongCount { count: usize, bound: Bound, remedy: &'static str },
     /// Not one of the names allowed.
     UnknownName { value: String, suggestion: Option<String>, allowed: Vec<&'static str> },
-    /// Part of the language of scenes, but not of this version.
-    NotAvailable { value: Option<String>, available: Vec<&'static str> },
     /// A formula that is not in the grammar.
     Expression { text: String, source: ExpressionError },
     /// Keys that exclude each other.

@@ -72,7 +72,7 @@ impl Flow {
     /// `end` is the end time, if that is known.
     pub(super) fn read(mut section: Section<'_>, end: Option<f64>) -> Self {
         let default = Self::default();
-        let normal_mobility = section.get("normal_mobility").and_then(|entry| entry.choice(&[]));
+        let normal_mobility = section.get("normal_mobility").and_then(|entry| entry.choice());
         let (gauge, grading) = Gauge::read(&mut section);
         let stop_on_contact = section.get("stop_on_contact").and_then(|entry| entry.boolean());
         let switch = Switch::read_all(section.get("switch"), end);

@@ -51,7 +51,7 @@ impl Gauge {
 
     /// The keys `gauge` and `grading` of a table.
     pub(super) fn read(section: &mut Section<'_>) -> (Option<Self>, Option<Formula>) {
-        let gauge: Option<Self> = section.get("gauge").and_then(|entry| entry.choice(&[]));
+        let gauge: Option<Self> = section.get("gauge").and_then(|entry| entry.choice());
         let grading = section.get("grading");
         let known = gauge.unwrap_or_default();
         match (known, &grading) {

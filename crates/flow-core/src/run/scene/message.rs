@@ -142,7 +142,6 @@ fn sentence(key: &str, fault: &Fault) -> String {
             let instead = instead(suggestion.as_deref(), "allowed are", allowed);
             format!("`{key}` cannot be \"{}\": {instead}", plain(value))
         }
-        Fault::NotAvailable { value, available } => not_available(key, value.as_deref(), available),
         Fault::Expression { text, source } => format!("`{key}` = \"{}\": {source}", plain(text)),
         Fault::Conflict { with, remedy } => format!("`{key}` and `{with}` exclude each other; {remedy}"),
         Fault::OtherChoice { choice, value, remedy } => {
@@ -209,16 +208,6 @@ fn out_of_range(key: &str, written: &str, value: f64, bound: Bound, remedy: &str
         "is not a finite number: it must be finite and"
     };
     format!("`{key}` = {written} {what} {bound}; {remedy}")
-}
-
-fn not_available(key: &str, value: Option<&str>, available: &[&str]) -> String {
-    let what = value.map_or(format!("`{key}` is"), |value| format!("`{key}` = \"{value}\" is"));
-    let what = format!("{what} not available yet in this version");
-    if available.is_empty() {
-        format!("{what}; remove the key")
-    } else {
-        format!("{what}; available: {}", listed(available))
-    }
 }
 
 fn unknown_density(key: &str, value: &str, suggestion: Option<&str>, densities: &[String]) -> String {

@@ -38,17 +38,6 @@ impl<'a> Report<'a> {
         self.problems.borrow_mut().retain(|problem| !is_consequence(problem));
     }
 
-    /// The one way to say that something is planned but not built; `available` is what to use instead.
-    pub(super) fn unsupported(
-        &self,
-        key: &str,
-        span: &Range<usize>,
-        value: Option<&str>,
-        available: Vec<&'static str>,
-    ) {
-        self.add(key, span, Fault::NotAvailable { value: value.map(str::to_owned), available });
-    }
-
     /// The problems, or `None` if there are none.
     pub(super) fn into_error(self) -> Option<SceneError> {
         let mut problems = self.problems.into_inner();

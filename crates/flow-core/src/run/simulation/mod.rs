@@ -2,6 +2,7 @@
 
 mod ahead;
 mod clocks;
+mod discretised;
 mod recording;
 mod remap;
 mod resume;
@@ -14,6 +15,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use clocks::Clocks;
+use discretised::Discretised;
 pub use resume::{Memory, ResumeError};
 use saving::FrameRoom;
 
@@ -21,13 +23,10 @@ use crate::energies::TermFault;
 use crate::geometry::Layout;
 use crate::integrator::{Adaptive, Clocked, Counters, IntegrationError, Multistep, StepReport, Stepper};
 use crate::run::adaptation::Adaptation;
-use crate::run::diagnostics::Diagnostics;
 use crate::run::equilibrium::Equilibrium;
 use crate::run::failure::Failure;
 use crate::run::frames::Start;
 use crate::run::gauges::Gauges;
-use crate::run::membrane::Membrane;
-use crate::run::mesh::Mesh;
 use crate::run::observer::{Observer, Progress};
 use crate::run::record::{Frame, Record, StopReason};
 use crate::run::scene::Scene;
@@ -59,17 +58,13 @@ pub const ENERGY_TOLERANCE_SHARE: f64 = 0.01;
 /// ```
 #[derive(Debug)]
 pub struct Simulation {
-    membrane: Membrane,
-    diagnostics: Diagnostics,
+    on: Discretised,
     integration: Adaptive<Multistep>,
     gauges: Gauges,
     /// Chooses the nodes, if the scene leaves that to the program.
     adaptation: Option<Adaptation>,
     /// Whether nodes that the scene fixes have missed some of its data: then the run is one of other data.
     misses_data: bool,
-    mesh: Mesh,
-    /// Accepted steps when the nodes were chosen.
-    remapped_at: u64,
     /// Changes of the gauge so far.
     switches: u64,
     tolerance: f64,
@@ -82,7 +77,6 @@ pub struct Simulation {
     /// Frames saved so far, the initial one and those at [`Self::frame_times`].
     scheduled_frames: usize,
     frame_room: FrameRoom,
-    scratch: Vec<f64>,
     /// Gap of the last accepted state before its projection.
     closure_defect: f64,
     record: Record,
@@ -120,9 +114,9 @@ impl Simulation {
     fn step_since(&mut self, clock: Instant, observer: &mut dyn Observer) -> Instant {
         let watch = &mut self.clocks.watch;
         watch.start_step();
-        let report = self.integration.step(&mut Clocked::new(&mut self.membrane, watch));
+        let report = self.integration.step(&mut Clocked::new(&mut self.on.membrane, watch));
         watch.end_step();
-        let fault = self.membrane.flow().fault();
+        let fault = self.on.membrane.flow().fault();
         let (seconds, aside) = (clock.elapsed().as_secs_f64(), self.clocks.aside());
         self.record.counters.integration_seconds += seconds;
         self.clocks.integration += seconds;
@@ -146,7 +140,7 @@ impl Simulation {
             }
             (Err(error), _) => self.fail_step(error),
             (Ok(report), fault) => {
-                self.closure_defect = self.membrane.closure_defect();
+                self.closure_defect = self.on.membrane.closure_defect();
                 self.log(&report);
                 let room = self.save_frames();
                 let asked_to_stop = self.tell(&report, observer).is_break();
@@ -177,7 +171,7 @@ impl Simulation {
 
     fn in_contact(&mut self) -> bool {
         let state = self.integration.stepper().state();
-        self.allowed_crossings.is_some_and(|allowed| self.membrane.crossings(state) > allowed)
+        self.allowed_crossings.is_some_and(|allowed| self.on.membrane.crossings(state) > allowed)
     }
 
     fn at_rest(&mut self, report: &StepReport) -> bool {
@@ -205,26 +199,26 @@ impl Simulation {
         steps.energy.push(report.energy);
         steps.dissipation.push(report.dissipation);
         steps.order.push(report.order as u8);
-        steps.nodes.push(self.membrane.layout().nodes() as u32);
+        steps.nodes.push(self.on.membrane.layout().nodes() as u32);
         steps.rejections.push(report.rejections);
     }
 
     /// Shape of the nodal state.
     #[must_use]
     pub fn layout(&self) -> Layout {
-        self.membrane.layout()
+        self.on.membrane.layout()
     }
 
     /// The last accepted state at the nodes (see [`Layout`]).
     pub fn state(&mut self) -> Vec<f64> {
-        let mut nodal = vec![0.0; self.membrane.layout().len()];
-        self.membrane.flow().decode(self.integration.stepper().state(), &mut nodal);
+        let mut nodal = vec![0.0; self.on.membrane.layout().len()];
+        self.on.membrane.flow().decode(self.integration.stepper().state(), &mut nodal);
         nodal
     }
 
     /// Bytes that the terms of the energy keep for second derivatives.
     pub(super) fn kept_bytes(&mut self) -> f64 {
-        self.membrane.flow().energy_terms().kept_bytes()
+        self.on.membrane.flow().energy_terms().kept_bytes()
     }
 
     /// Length |Γ| of the curve.

@@ -17,7 +17,7 @@ const REPLAY_SHARE: f64 = 0.003;
 impl Simulation {
     /// The state at hand as a frame; it is not saved.
     pub fn frame(&mut self) -> Frame {
-        self.scratch.copy_from_slice(self.integration.stepper().state());
+        self.on.scratch.copy_from_slice(self.integration.stepper().state());
         let (time, integrals) = (self.integration.stepper().time(), self.integration.integrals());
         self.frame_of_scratch(time, integrals, Some(self.closure_defect))
     }
@@ -29,8 +29,8 @@ impl Simulation {
         integrals: [f64; INTEGRALS],
         closure_defect: Option<f64>,
     ) -> Frame {
-        let (membrane, diagnostics) = (&mut self.membrane, &mut self.diagnostics);
-        frame(membrane, diagnostics, time, &mut self.scratch, integrals, &self.start, closure_defect)
+        let (membrane, diagnostics) = (&mut self.on.membrane, &mut self.on.diagnostics);
+        frame(membrane, diagnostics, time, &mut self.on.scratch, integrals, &self.start, closure_defect)
     }
 
     /// Names of the densities, in the order of [`Frame::density`].
@@ -98,8 +98,8 @@ impl Simulation {
             return self.fail(error);
         }
         let candidate = self.integration.candidate().to_vec();
-        let later = ahead(&mut self.membrane, self.integration.stepper().state());
-        let flow = self.membrane.flow();
+        let later = ahead(&mut self.on.membrane, self.integration.stepper().state());
+        let flow = self.on.membrane.flow();
         let found = [candidate, later].into_iter().find_map(|state| {
             flow.set_current(&state);
             // What is no curve says nothing of the terms.
@@ -119,7 +119,7 @@ impl Simulation {
     /// Where the time went up to here.
     fn seconds(&mut self) -> Seconds {
         let limit = REPLAY_SHARE * self.clocks.integration;
-        let costs = self.membrane.flow().part_costs(self.integration.stepper().state(), limit);
+        let costs = self.on.membrane.flow().part_costs(self.integration.stepper().state(), limit);
         self.clocks.seconds(&costs)
     }
 

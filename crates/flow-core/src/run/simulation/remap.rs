@@ -3,8 +3,9 @@
 use std::time::Instant;
 
 use super::Simulation;
+use super::discretised::Discretised;
 use crate::energies::TermFault;
-use crate::integrator::{Adaptive, AdaptiveOptions, Factorisation, Finish, Multistep, Problem, Stepper};
+use crate::integrator::{Factorisation, Finish, Multistep, Problem, Stepper};
 use crate::run::adaptation::{Look, Plan, Way};
 use crate::run::failure::Failure;
 use crate::run::mesh::Mesh;
@@ -25,20 +26,22 @@ impl Simulation {
     pub(super) fn adapt(&mut self, time: f64, energy: f64) {
         let Some(adaptation) = &self.adaptation else { return self.count_unresolved() };
         let clock = Instant::now();
-        let age = self.counters().steps - self.remapped_at;
+        let age = self.counters().steps - self.on.remapped_at;
         let state = self.integration.stepper().state();
-        let (served, failure) = match adaptation.look(&mut self.membrane, (time, state), &self.mesh, age) {
-            Look::Serve => (true, None),
-            Look::Change(plan) => {
-                let (fewer, more) = (plan.mesh.nodes < self.mesh.nodes, plan.mesh.nodes > self.mesh.nodes);
-                match self.remap(plan, time, energy) {
-                    Err(Some(failure)) if more => (false, Some(failure)),
-                    taken => (taken.is_ok() || fewer, None),
+        let (served, failure) =
+            match adaptation.look(&mut self.on.membrane, (time, state), &self.on.mesh, age) {
+                Look::Serve => (true, None),
+                Look::Change(plan) => {
+                    let (fewer, more) =
+                        (plan.mesh.nodes < self.on.mesh.nodes, plan.mesh.nodes > self.on.mesh.nodes);
+                    match self.remap(plan, time, energy) {
+                        Err(Some(failure)) if more => (false, Some(failure)),
+                        taken => (taken.is_ok() || fewer, None),
+                    }
                 }
-            }
-            Look::Unresolved => (false, None),
-            Look::Hopeless(error) => (false, Some(error.into())),
-        };
+                Look::Unresolved => (false, None),
+                Look::Hopeless(error) => (false, Some(error.into())),
+            };
         self.record.counters.unresolved_steps += u64::from(!served);
         let seconds = clock.elapsed().as_secs_f64();
         self.record.counters.integration_seconds += seconds;
@@ -51,8 +54,8 @@ impl Simulation {
     /// On nodes that the scene fixes: counts steps that they are far from resolving.
     fn count_unresolved(&mut self) {
         if self.counters().steps.is_multiple_of(FIXED_LOOKS) {
-            let family = self.membrane.flow().grid_and_derivative().1.family();
-            let (layout, state) = (self.membrane.layout(), self.integration.stepper().state());
+            let family = self.on.membrane.flow().grid_and_derivative().1.family();
+            let (layout, state) = (self.on.membrane.layout(), self.integration.stepper().state());
             let part = unresolved(layout, state, layout.nodes(), family);
             if part > COARSE.max(COARSE_PART * self.tolerance) {
                 self.record.counters.unresolved_steps += FIXED_LOOKS;
@@ -67,7 +70,7 @@ impl Simulation {
     /// room.
     fn remap(&mut self, mut plan: Plan, time: f64, energy: f64) -> Result<(), Option<Failure>> {
         self.check_plan(&plan).map_err(|error| Some(Failure::Limit { time, error }))?;
-        let turning_number = self.membrane.turning_number();
+        let turning_number = self.on.membrane.turning_number();
         let built = match &plan.way {
             Way::Regraded(grading, _) => {
                 self.gauges.build_on(plan.mesh.nodes, grading.clone(), turning_number)
@@ -78,7 +81,8 @@ impl Simulation {
         let mut memory = self.integration.stepper().memory();
         match &mut plan.way {
             Way::SameParameters => {
-                let (old, new) = (self.membrane.flow().spectral_layout(), membrane.flow().spectral_layout());
+                let (old, new) =
+                    (self.on.membrane.flow().spectral_layout(), membrane.flow().spectral_layout());
                 for (_, state) in &mut memory.points {
                     *state = old.resampled(state, &new);
                 }
@@ -93,13 +97,13 @@ impl Simulation {
             }
             Way::Regraded(_, way) => {
                 memory = memory.implicit();
-                let flow = self.membrane.flow();
+                let flow = self.on.membrane.flow();
                 for (_, state) in &mut memory.points {
                     *state = way.apply(flow, state).map_err(|_| None)?;
                 }
             }
         }
-        membrane.follow(&self.membrane);
+        membrane.follow(&self.on.membrane);
         let Finish::Good { energy: new_energy, .. } = membrane.finish(time, &mut memory.points[0].1) else {
             let too_many =
                 membrane.flow().fault().filter(|fault| matches!(fault, TermFault::TooManyPairs { .. }));
@@ -107,20 +111,16 @@ impl Simulation {
         };
         let error = new_energy - energy;
         let scale = energy.abs().max(ENERGY_FLOOR * (self.start.energy - energy).abs());
-        if !resolves_more(&plan, &self.mesh) && error.abs() > self.tolerance * scale {
+        if !resolves_more(&plan, &self.on.mesh) && error.abs() > self.tolerance * scale {
             return Err(None);
         }
         memory.factorisation = Factorisation::default();
         let stepper = Multistep::resume(&membrane, memory, self.tolerance);
-        let options = AdaptiveOptions { end: self.next_stop(), ..*self.integration.options() };
         let mut counters = *self.integration.counters();
         counters.remaps += 1;
         self.start.remap_error += error;
-        self.integration = Adaptive::new(stepper, options, new_energy, counters);
-        (self.membrane, self.diagnostics) = (membrane, diagnostics);
-        self.scratch = vec![0.0; self.membrane.size()];
-        self.mesh = plan.mesh;
-        self.remapped_at = counters.steps;
+        self.on = Discretised::new((membrane, diagnostics), plan.mesh, counters.steps);
+        self.go_on_by(stepper, new_energy, counters);
         Ok(())
     }
 

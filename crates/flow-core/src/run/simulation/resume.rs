@@ -6,11 +6,10 @@ use serde::{Deserialize, Serialize};
 
 use super::Simulation;
 use super::clocks::Clocks;
+use super::discretised::Discretised;
 use super::saving::FrameRoom;
 use crate::energies::EnergyTerm;
-use crate::integrator::{
-    self, Adaptive, AdaptiveOptions, Counters, Multistep, Problem, Rest, Stepper, Stopwatch,
-};
+use crate::integrator::{self, Counters, Multistep, Problem, Rest, Stepper, Stopwatch};
 use crate::run::adaptation::Adaptation;
 use crate::run::equilibrium::Equilibrium;
 use crate::run::failure::Failure;
@@ -95,14 +94,14 @@ impl Simulation {
             energy: self.integration.energy(),
             rest: self.integration.rest(),
             counters: self.counters_with_time(),
-            membrane: self.membrane.memory(),
+            membrane: self.on.membrane.memory(),
             start: self.start,
             scheduled_frames: self.scheduled_frames,
             closure_defect: self.closure_defect,
             allowed_crossings: self.allowed_crossings,
             equilibrium: self.equilibrium.clone(),
-            mesh: self.mesh.clone(),
-            remapped_at: self.remapped_at,
+            mesh: self.on.mesh.clone(),
+            remapped_at: self.on.remapped_at,
             switches: self.switches,
             stopped: self.stopped.clone().filter(|reason| *reason != StopReason::Interrupted),
         }
@@ -170,7 +169,7 @@ impl Simulation {
         let foreign = |item| ResumeError::Foreign { item };
         let clock = Instant::now();
         let mut simulation = Self::with(scene, own)?;
-        let turning_number = simulation.membrane.turning_number();
+        let turning_number = simulation.on.membrane.turning_number();
         simulation.gauges.skip(memory.switches.saturating_sub(simulation.switches)); // one may be at the start
         simulation.adaptation = Adaptation::of(simulation.gauges.scene());
         if !memory.mesh.is_possible() {
@@ -178,13 +177,13 @@ impl Simulation {
         }
         if memory.counters.remaps > 0 {
             let built = simulation.gauges.build(&memory.mesh, turning_number)?;
-            (simulation.membrane, simulation.diagnostics) = built;
+            simulation.on = Discretised::new(built, memory.mesh, memory.remapped_at);
         }
-        if !memory.integration.fits(simulation.membrane.size()) {
+        if !memory.integration.fits(simulation.on.membrane.size()) {
             return Err(foreign("the past states"));
         }
         let needed = memory.integration.factorisation.gamma.is_some();
-        if !simulation.membrane.resume(memory.membrane, needed) {
+        if !simulation.on.membrane.resume(memory.membrane, needed) {
             return Err(foreign("the state of the linear solver"));
         }
         if memory.scheduled_frames == 0 || frames.len() < memory.scheduled_frames {
@@ -202,13 +201,12 @@ impl Simulation {
         if lengths.iter().any(|length| *length as u64 != memory.counters.steps) {
             return Err(foreign("the log of steps"));
         }
-        let stepper = Multistep::resume(&simulation.membrane, memory.integration, simulation.tolerance);
+        let stepper = Multistep::resume(&simulation.on.membrane, memory.integration, simulation.tolerance);
         if stepper.time() > simulation.end {
             return Err(foreign("the time"));
         }
-        let options = AdaptiveOptions { end: simulation.next_stop(), ..*simulation.integration.options() };
-        let integration = Adaptive::new(stepper, options, memory.energy, memory.counters);
-        simulation.integration = integration.watched(memory.rest);
+        simulation.go_on_by(stepper, memory.energy, memory.counters);
+        simulation.integration.watch_on(memory.rest);
         simulation.record.counters = memory.counters;
         let nodes = frames.iter().map(|frame| frame.curvature.len()).max();
         simulation.frame_room = FrameRoom::new(nodes.unwrap_or_default());
@@ -219,8 +217,6 @@ impl Simulation {
         simulation.closure_defect = memory.closure_defect;
         simulation.allowed_crossings = memory.allowed_crossings;
         simulation.equilibrium = memory.equilibrium;
-        simulation.scratch = vec![0.0; simulation.membrane.size()];
-        (simulation.mesh, simulation.remapped_at) = (memory.mesh, memory.remapped_at);
         simulation.switches = memory.switches;
         simulation.clocks = Clocks::started(clock, 0.0, Stopwatch::default());
         if let Some(reason) = memory.stopped {

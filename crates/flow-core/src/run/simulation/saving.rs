@@ -34,7 +34,7 @@ impl Simulation {
         while let Some(time) = self.next_frame().filter(|time| *time < now) {
             let clock = Instant::now();
             self.check_room(1, self.layout())?;
-            let integrals = self.integration.stepper().interpolate(time, &mut self.scratch);
+            let integrals = self.integration.stepper().interpolate(time, &mut self.on.scratch);
             let frame = self.frame_of_scratch(time, integrals, None);
             self.record.frames.push(frame);
             self.scheduled_frames += 1;

@@ -4,12 +4,14 @@ use std::time::Instant;
 
 use super::ahead::ahead;
 use super::clocks::Clocks;
+use super::discretised::Discretised;
 use super::saving::FrameRoom;
 use super::{ENERGY_TOLERANCE_SHARE, Simulation};
 use crate::energies::EnergyTerm;
 use crate::flow::MetricRole;
 use crate::integrator::{
-    Adaptive, AdaptiveOptions, Clocked, Counters, Finish, INTEGRALS, Integrals, Multistep, Problem, Stopwatch,
+    Adaptive, AdaptiveOptions, Clocked, Counters, DISSIPATED, Finish, INTEGRALS, Integrals, Multistep,
+    Problem, Stopwatch,
 };
 use crate::run::culprit::Culprit;
 use crate::run::equilibrium::Equilibrium;
@@ -58,7 +60,7 @@ impl Simulation {
         let scene = &scene.clone().checked()?;
         let doubts_gradients = own.exist();
         let mut setup = Setup::of(scene, own)?;
-        let (energy, dissipation, integral_rates) = setup.finish()?;
+        let (energy, integral_rates) = setup.finish()?;
         let Setup {
             mut membrane,
             mut state,
@@ -124,15 +126,13 @@ impl Simulation {
             equilibrium: scene
                 .time
                 .stop_at_equilibrium
-                .then(|| Equilibrium::new(rest_tolerance(scene), energy, dissipation, end)),
+                .then(|| Equilibrium::new(rest_tolerance(scene), energy, integral_rates[DISSIPATED], end)),
             integration: Adaptive::new(stepper, options, energy, counters),
             gauges,
             adaptation,
             misses_data: scene.accuracy.nodes != Nodes::Auto
                 && missed > MISSED.max(MISSED_TOLERANCES * scene.accuracy.tolerance),
             frame_room: FrameRoom::new(mesh.nodes),
-            mesh,
-            remapped_at: 0,
             switches: 0,
             tolerance: scene.accuracy.tolerance,
             start,
@@ -140,11 +140,9 @@ impl Simulation {
             until: f64::INFINITY,
             frame_times,
             scheduled_frames: 1,
-            scratch: state,
             closure_defect,
             allowed_crossings: scene.flow.stop_on_contact.then_some(allowed_crossings),
-            membrane,
-            diagnostics,
+            on: Discretised::new((membrane, diagnostics), mesh, 0),
             record,
             clocks: Clocks::started(clock, counters.integration_seconds, watch),
             stopped: None,
@@ -158,14 +156,13 @@ impl Simulation {
 }
 
 impl Setup {
-    /// Puts the initial state onto its constraints; its energy, its dissipation and the rates of the integrals.
+    /// Puts the initial state onto its constraints; its energy and the rates of the integrals.
     ///
     /// # Errors
     /// [`SetupError::EnergyNotFinite`], which names the term, the [`SetupError::Term`] by which it refuses the data, or
     /// [`SetupError::StateNotFinite`].
-    pub fn finish(&mut self) -> Result<(f64, f64, [f64; INTEGRALS]), SetupError> {
-        let Finish::Good { energy, dissipation, integral_rates } = self.membrane.finish(0.0, &mut self.state)
-        else {
+    pub fn finish(&mut self) -> Result<(f64, [f64; INTEGRALS]), SetupError> {
+        let Finish::Good { energy, integral_rates } = self.membrane.finish(0.0, &mut self.state) else {
             let nodes = self.membrane.layout().nodes();
             return Err(self.not_finite().unwrap_or(SetupError::StateNotFinite { nodes }));
         };
@@ -176,7 +173,7 @@ impl Setup {
         {
             return Err(error);
         }
-        Ok((energy, dissipation, integral_rates))
+        Ok((energy, integral_rates))
     }
 
     /// Whether the second derivatives are finite a little later, and the first step, which is solved there, gets on: the state may have
@@ -205,6 +202,10 @@ impl Setup {
     }
 }
 
+/// Part of the tolerance that [`rest_tolerance`] is, and where nodes slide along the curve.
+const REST_SHARE: f64 = 0.01;
+const REST_SHARE_SLIDING: f64 = 0.1;
+
 /// Part of the energy that a flow at rest may still lose.
 ///
 /// Co-moving nodes go on to creep along the curve at the rate of the discretisation's error, and a solution slides off the nodes
@@ -218,7 +219,7 @@ fn rest_tolerance(scene: &Scene) -> f64 {
         MetricRole::Graded => grading.is_none(),
         MetricRole::Uniform => false,
     });
-    let share = if slides { 0.1 } else { 0.01 };
+    let share = if slides { REST_SHARE_SLIDING } else { REST_SHARE };
     scene.time.equilibrium_tolerance.unwrap_or(share * scene.accuracy.tolerance)
 }
 

@@ -3,7 +3,8 @@
 use std::time::Instant;
 
 use super::Simulation;
-use crate::integrator::{Adaptive, AdaptiveOptions, Finish, Integrals, Multistep, Problem, Stepper};
+use super::discretised::Discretised;
+use crate::integrator::{Finish, Integrals, Multistep, Problem, Stepper};
 use crate::run::adaptation::Adaptation;
 use crate::run::failure::Failure;
 use crate::run::gauges::Switched;
@@ -14,7 +15,7 @@ impl Simulation {
     pub(super) fn switch(&mut self, time: f64, energy_before: f64) {
         let clock = Instant::now();
         let state = self.integration.stepper().state();
-        let Some(switched) = self.gauges.switch(&mut self.membrane, state) else { return };
+        let Some(switched) = self.gauges.switch(&mut self.on.membrane, state) else { return };
         let Switched { mut membrane, diagnostics, regraded } = match switched {
             Ok(switched) => switched,
             Err(error) => return self.fail(Failure::Gauge { time, error }),
@@ -24,20 +25,16 @@ impl Simulation {
         let Finish::Good { energy, integral_rates, .. } = finish else {
             return self.fail(Failure::NotFiniteInGauge { time }); // with the last state in the old gauge
         };
-        (self.membrane, self.diagnostics) = (membrane, diagnostics);
-        self.scratch = state;
         self.start.remap_error += energy - energy_before;
         let mut counters = *self.integration.counters();
         counters.remaps += 1;
         self.switches += 1;
-        self.mesh = Mesh::of(self.membrane.layout().nodes());
         self.adaptation = Adaptation::of(self.gauges.scene());
-        self.remapped_at = counters.steps;
         let integrals = Integrals::new(time, self.integration.integrals(), integral_rates);
-        let stepper =
-            Multistep::starting(&mut self.membrane, &self.scratch, integrals, self.tolerance, &mut counters);
-        let options = AdaptiveOptions { end: self.next_stop(), ..*self.integration.options() };
-        self.integration = Adaptive::new(stepper, options, energy, counters);
+        let stepper = Multistep::starting(&mut membrane, &state, integrals, self.tolerance, &mut counters);
+        let mesh = Mesh::of(membrane.layout().nodes());
+        self.on = Discretised::new((membrane, diagnostics), mesh, counters.steps);
+        self.go_on_by(stepper, energy, counters);
         let seconds = clock.elapsed().as_secs_f64();
         self.record.counters.integration_seconds += seconds;
         self.clocks.remaps += seconds;
