@@ -6,7 +6,7 @@ use flow_core::integrator::{
     Adaptive, AdaptiveOptions, Clocked, Counters, Finish, INTEGRALS, Integrals, LinearPart, Multistep,
     Problem, Stepper, Stopwatch,
 };
-use flow_core::run::{ENERGY_TOLERANCE_SHARE, Quiet, Scene, Setup, run};
+use flow_core::run::{ENERGY_TOLERANCE_SHARE, Quiet, Scene, Setup, Spending, run};
 
 use super::costs::seconds;
 use super::interleaved::{Times, in_turns};
@@ -126,7 +126,7 @@ pub fn generality(steps: Steps, nodes: usize, rounds: usize) -> Generality {
         rounds,
         [&|| stripped().seconds, &|| core().seconds, &|| {
             let record = program();
-            record.counters.integration_seconds + record.seconds.observers
+            record.counters.integration_seconds + record.seconds[Spending::Observers]
         }],
     );
     Generality {

@@ -6,15 +6,14 @@ mod print;
 mod progress;
 mod signals;
 
-use std::error::Error;
 use std::ffi::OsString;
-use std::fmt::Write;
 use std::panic;
 
 use clap::{Parser, Subcommand};
 
 use commands::{check, info, plot, resume, scenes, schema, tradeoff, view};
 use error::CliError;
+use flow_core::output::with_causes;
 
 /// Gradient flows of energies of closed planar curves that carry embedded densities.
 #[derive(Debug, Parser)]
@@ -68,7 +67,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     match panic::catch_unwind(|| signals::let_large_writes_fail().and_then(|()| cli.command.execute())) {
         Ok(Ok(())) => 0,
         Ok(Err(error)) => {
-            print::talk(&message(&error));
+            print::talk(&format!("error: {}", with_causes(&error)));
             exit_code(&error)
         }
         Err(_) => {
@@ -95,17 +94,6 @@ fn exit_code(error: &CliError) -> u8 {
         CliError::Stopped { .. } | CliError::LadderStopped { .. } => 6,
         CliError::Unreadable(_) | CliError::OtherScene { .. } => 7,
     }
-}
-
-/// The error and everything that caused it, one line each.
-fn message(error: &CliError) -> String {
-    let mut text = format!("error: {error}");
-    let mut cause = error.source();
-    while let Some(inner) = cause {
-        let _ = write!(text, "\n  caused by: {inner}"); // a String never fails
-        cause = inner.source();
-    }
-    text
 }
 
 #[cfg(test)]

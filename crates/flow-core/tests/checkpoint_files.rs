@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use flow_core::output::checkpoint::{Pair, Saving, read, run_saving};
-use flow_core::run::{Observer, Progress, Quiet, Scene, Simulation};
+use flow_core::run::{Observer, Progress, Quiet, Scene, Simulation, Spending};
 
 /// A fresh folder, removed at the end of the test.
 struct Folder(PathBuf);
@@ -79,5 +79,5 @@ fn a_run_that_is_saved_on_the_way_says_that_it_took_time_and_keeps_its_last_step
     let mut saving = Saving { pair: folder.pair(), interval: Duration::MAX, missed: &mut |_| {} };
     let record = run_saving(circle(), &mut After(7), &mut saving).record;
     assert_eq!((record.counters.steps, folder.steps()), (7, vec![7]));
-    assert!(record.seconds.output > 0.0);
+    assert!(record.seconds[Spending::Output] > 0.0);
 }

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use flow_core::output::{StorageError, hdf5_file};
-use flow_core::run::{Record, Seconds, StepLog, StopReason};
+use flow_core::run::{Record, Seconds, Spending, StepLog, StopReason};
 
 /// A fresh folder, removed at the end of the test.
 struct Folder(PathBuf);
@@ -68,12 +68,12 @@ fn the_file_knows_how_long_it_took_to_make() {
     let folder = Folder::new("timed");
     let path = folder.file("out.h5");
     let mut record = synthetic::record(7, 64, &["protein"]);
-    let before = record.seconds.output;
+    let before = record.seconds[Spending::Output];
     hdf5_file::write_timed(&mut record, &path, false).unwrap();
     let written = hdf5_file::read(&path).unwrap();
-    let (made, all) = (written.seconds.output, record.seconds.output);
+    let (made, all) = (written.seconds[Spending::Output], record.seconds[Spending::Output]);
     assert!(before < made && made < all, "{before}, {made}, {all}");
-    record.seconds.output = made;
+    record.seconds[Spending::Output] = made;
     assert!(record == written);
 }
 

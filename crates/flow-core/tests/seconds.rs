@@ -2,8 +2,10 @@
 
 use std::ops::ControlFlow;
 
+use flow_core::integrator::Activity;
 use flow_core::run::{
-    Counters, Limit, Observer, Progress, Quiet, Record, Rejections, Scene, Seconds, Simulation, WhySlow, run,
+    Counters, Limit, Observer, Progress, Quiet, Record, Rejections, Scene, Seconds, Simulation, Spending,
+    WhySlow, run,
 };
 
 mod synthetic;
@@ -45,8 +47,8 @@ fn shares_are_not_negative_and_add_up() {
         assert_sum(why.activities.iter().map(|share| share.share), 1.0);
         assert_sum(why.activities.iter().map(|share| share.seconds), record.seconds.total());
         assert_sum(why.evaluations.iter().map(|share| share.seconds), record.seconds.in_evaluations());
-        let Seconds { start, remaps, frames, observers, output, .. } = record.seconds;
-        let aside = start + remaps + frames + observers + output;
+        let aside = Spending::ALL.into_iter().filter(|spending| !matches!(spending, Spending::Step(_)));
+        let aside: f64 = aside.map(|spending| record.seconds[spending]).sum();
         assert_sum([record.seconds.total() - aside], record.counters.integration_seconds);
         for term in &record.energy_terms {
             assert!(why.evaluations.iter().any(|share| share.name == *term), "{name}: {term}");
@@ -100,7 +102,7 @@ fn a_switch_of_the_gauge_is_a_remap() {
     let (_, text) = Scene::shipped().iter().find(|(name, _)| *name == "length_penalty").expect("shipped");
     let scene = Scene::parse_with(text, "length_penalty", &changes).expect("valid");
     let record = run(&scene, &mut Quiet).expect("an initial state");
-    assert!(record.seconds.remaps > 0.0);
+    assert!(record.seconds[Spending::Remaps] > 0.0);
     let why = WhySlow::of(&record);
     assert_sum(why.activities.iter().map(|share| share.share), 1.0);
 }
@@ -147,7 +149,10 @@ fn limit(change: impl FnOnce(&mut Seconds, &mut Counters)) -> Limit {
         rejections: Rejections { error: 5, ..Rejections::default() },
         ..Counters::default()
     };
-    (record.seconds, record.counters) = (Seconds { jacobian_products: 1.0, ..Seconds::default() }, counters);
+    let products = Spending::Step(Activity::JacobianProduct);
+    let mut seconds = Seconds::default();
+    seconds[products] = 1.0;
+    (record.seconds, record.counters) = (seconds, counters);
     change(&mut record.seconds, &mut record.counters);
     let why = WhySlow::of(&record);
     assert!(!why.sentence.is_empty() && !why.advice.is_empty());
@@ -158,10 +163,13 @@ fn limit(change: impl FnOnce(&mut Seconds, &mut Counters)) -> Limit {
 fn each_limit_has_its_cause() {
     assert_eq!(limit(|_, _| ()), Limit::Accuracy);
     assert_eq!(limit(|seconds, _| *seconds = Seconds::default()), Limit::NotMeasured);
-    assert_eq!(limit(|seconds, _| seconds.start = 2.0), Limit::Start);
-    assert_eq!(limit(|seconds, _| (seconds.frames, seconds.output) = (1.0, 0.5)), Limit::Frames);
-    assert_eq!(limit(|seconds, _| (seconds.frames, seconds.output) = (0.5, 1.0)), Limit::Output);
-    assert_eq!(limit(|seconds, _| seconds.observers = 2.0), Limit::Observers);
+    assert_eq!(limit(|seconds, _| seconds[Spending::Start] = 2.0), Limit::Start);
+    let saving = |frames, output| {
+        limit(|seconds, _| (seconds[Spending::Frames], seconds[Spending::Output]) = (frames, output))
+    };
+    assert_eq!(saving(1.0, 0.5), Limit::Frames);
+    assert_eq!(saving(0.5, 1.0), Limit::Output);
+    assert_eq!(limit(|seconds, _| seconds[Spending::Observers] = 2.0), Limit::Observers);
     assert_eq!(limit(|seconds, _| seconds.evaluations.terms = vec![0.9, 0.1]), Limit::Term);
     assert_eq!(limit(|_, counters| counters.rejections.energy_rise = 20), Limit::EnergyRises);
     assert_eq!(limit(|_, counters| counters.rejections.not_finite = 20), Limit::NotFinite);

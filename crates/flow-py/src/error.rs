@@ -1,14 +1,13 @@
 //! Each error enum of `flow-core` is one exception class of `curveflow.errors`; a panic is a `BugError`.
 
 use std::error::Error;
-use std::fmt::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use flow_core::flow::NodalError;
 use flow_core::geometry::GeometryError;
-use flow_core::output::StorageError;
 use flow_core::output::page::PageError;
 use flow_core::output::picture::PictureError;
+use flow_core::output::{StorageError, with_causes};
 use flow_core::run::tradeoff::{LadderError, TradeoffError};
 use flow_core::run::{EvaluationError, SceneError, SetupError};
 use pyo3::prelude::*;
@@ -114,18 +113,7 @@ pub fn detached<T: Send, E: PythonError>(
 
 /// The exception of an error.
 pub fn raised(py: Python<'_>, error: &impl PythonError) -> PyErr {
-    exception(py, error.class(), &message(error))
-}
-
-/// The error and everything that caused it, one line each, as the command line prints it.
-fn message(error: &dyn Error) -> String {
-    let mut text = error.to_string();
-    let mut cause = error.source();
-    while let Some(inner) = cause {
-        let _ = write!(text, "\n  caused by: {inner}"); // a String never fails
-        cause = inner.source();
-    }
-    text
+    exception(py, error.class(), &with_causes(error))
 }
 
 #[cold]

@@ -4,7 +4,7 @@ use flow_core::flow::{NodalCurve, NodalError, NodalRates};
 use flow_core::geometry::CurveGeometry;
 use flow_core::operators::DerivativeFamily;
 use flow_core::run;
-use flow_core::run::scene::Gauge;
+use flow_core::run::scene::{Derivative, Gauge};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -141,18 +141,23 @@ fn slices<'a>(arrays: &'a [NodalIn<'_>]) -> PyResult<Vec<&'a [f64]>> {
 }
 
 fn gauge_named(name: &str) -> PyResult<Gauge> {
-    let known = Gauge::ALL.iter().copied().find(|gauge| gauge.name() == name);
-    known.ok_or_else(|| {
-        unknown("gauge", name, &Gauge::ALL.iter().map(|gauge| gauge.name()).collect::<Vec<_>>().join(", "))
-    })
+    named("gauge", name, Gauge::ALL.iter().map(|gauge| (gauge.name(), *gauge)))
 }
 
 fn family(name: &str) -> PyResult<DerivativeFamily> {
-    let allowed = "fourier, central-2, central-4, central-6, central-8";
-    serde_json::from_value(name.into()).map_err(|_| unknown("derivative", name, allowed))
+    let families = Derivative::ALL.iter().filter_map(|choice| Some((choice.name(), choice.family()?)));
+    named("derivative", name, families)
 }
 
-#[cold]
-fn unknown(argument: &str, value: &str, allowed: &str) -> PyErr {
-    PyValueError::new_err(format!("{argument} = {value:?}: it must be one of {allowed}"))
+/// The one of `choices` that `argument` names.
+fn named<T>(
+    argument: &str,
+    name: &str,
+    choices: impl Iterator<Item = (&'static str, T)> + Clone,
+) -> PyResult<T> {
+    let known = choices.clone().find(|(known, _)| *known == name);
+    known.map(|(_, choice)| choice).ok_or_else(|| {
+        let allowed = choices.map(|(name, _)| name).collect::<Vec<_>>().join(", ");
+        PyValueError::new_err(format!("{argument} = {name:?}: it must be one of {allowed}"))
+    })
 }

@@ -22,14 +22,11 @@ pub(super) fn shape(shape: &scene::Shape) -> Shape {
 
 /// The family of derivatives of `scene` on nodes that are `graded` or not.
 pub(super) fn family(scene: &Scene, graded: bool) -> DerivativeFamily {
-    match scene.accuracy.derivative {
-        scene::Derivative::Auto if graded && scene.flow.follows_solution() => DerivativeFamily::Central8,
-        scene::Derivative::Auto | scene::Derivative::Fourier => DerivativeFamily::Fourier,
-        scene::Derivative::Central2 => DerivativeFamily::Central2,
-        scene::Derivative::Central4 => DerivativeFamily::Central4,
-        scene::Derivative::Central6 => DerivativeFamily::Central6,
-        scene::Derivative::Central8 => DerivativeFamily::Central8,
-    }
+    let chosen = || {
+        let crowds = graded && scene.flow.follows_solution();
+        if crowds { DerivativeFamily::Central8 } else { DerivativeFamily::Fourier }
+    };
+    scene.accuracy.derivative.family().unwrap_or_else(chosen)
 }
 
 /// The linear solver that a scene names.

@@ -16,17 +16,29 @@ impl Frame {
                 .chain([frame.density.len(), frame.fields.len()])
                 .collect::<Vec<_>>()
         };
-        let nodes = self.curvature.len();
-        let fields =
-            [&self.metric, &self.normal_velocity].into_iter().chain(&self.density).chain(&self.fields);
-        let whole = self.position.len() == nodes && fields.into_iter().all(|field| field.len() == nodes);
+        let nodes = self.nodes();
+        let whole = self.position.len() == nodes && self.nodal_fields().all(|field| field.len() == nodes);
         nodes >= 2 && whole && counts(self) == counts(other)
+    }
+
+    /// Number of its nodes.
+    #[must_use]
+    pub fn nodes(&self) -> usize {
+        self.curvature.len()
+    }
+
+    /// Every field that has one value per node: curvature, metric, normal velocity, densities, and those that the scene asks for.
+    pub fn nodal_fields(&self) -> impl Iterator<Item = &Vec<f64>> {
+        [&self.curvature, &self.metric, &self.normal_velocity]
+            .into_iter()
+            .chain(&self.density)
+            .chain(&self.fields)
     }
 
     /// The same frame on `nodes` nodes at the same parameters s, by trigonometric interpolation.
     #[must_use]
     pub fn resampled(self, nodes: usize) -> Self {
-        if nodes == self.curvature.len() { self } else { self.map(|values| resample(values, nodes)) }
+        if nodes == self.nodes() { self } else { self.map(|values| resample(values, nodes)) }
     }
 
     /// Whether its nodes are at equal distances.
@@ -42,7 +54,7 @@ impl Frame {
     /// The same frame at other `fractions` of the arc length; none if the metric is not positive everywhere.
     pub(super) fn at_fractions(self, fractions: &[f64]) -> Option<Self> {
         let mut points = ScatteredPoints::at_fractions(&self.grading()?, fractions);
-        let mut grid = PeriodicGrid::new(self.curvature.len());
+        let mut grid = PeriodicGrid::new(self.nodes());
         let mut spectrum = vec![Complex64::default(); grid.modes()];
         Some(self.map(|values| {
             grid.transform(values, &mut spectrum);

@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::resolution::MOST_NODES;
-use super::scene::Scene;
+use super::scene::{FEWEST_NODES, MOST_NODES, Scene};
 use super::setup_error::SetupError;
 use crate::flow::MetricRole;
 use crate::geometry::Grading;
@@ -20,9 +19,6 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// The fewest nodes that a scene may ask for.
-    const LEAST_NODES: usize = 8;
-
     /// `nodes` nodes, graded as the scene says; uniform if it leaves that to the program.
     #[must_use]
     pub fn of(nodes: usize) -> Self {
@@ -32,7 +28,7 @@ impl Mesh {
     /// Whether a run can have so many nodes; a mesh that was read may have any number.
     #[must_use]
     pub fn is_possible(&self) -> bool {
-        (Self::LEAST_NODES..=MOST_NODES).contains(&self.nodes)
+        (FEWEST_NODES..=MOST_NODES).contains(&self.nodes)
     }
 
     /// The grading in the gauge of `scene`; none if the nodes are uniform.

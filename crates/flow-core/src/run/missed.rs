@@ -1,5 +1,6 @@
 //! What the nodes miss of the initial data between them. See `THEORY.md`, eq. (D15).
 
+use super::floors::least_mean_square;
 use super::scene::Scene;
 use crate::geometry::shapes::{ByArcLength, ShapeError};
 use crate::geometry::vectors::{mean_of_product, multiply};
@@ -28,13 +29,14 @@ pub(super) fn missed(
     let mut turning = Places::new(CURVE_PLACES, layout.nodes(), grading);
     let curvature = curve.at(&turning.fractions)?.curvature;
     let turns: Vec<f64> = curvature.iter().map(|kappa| kappa * length).collect();
-    let mut worst = turning.miss(layout, state, 0, &turns, 1.0);
+    let mut worst = turning.miss(layout, state, 0, &turns, least_mean_square(0, length));
     if !scene.density.is_empty() {
         let mut places = Places::new(DENSITY_PLACES, layout.nodes(), grading);
         for (index, density) in scene.density.iter().enumerate() {
             let values = density.initial.values(&places.fractions);
             let masses: Vec<f64> = values.iter().map(|rho| rho * length).collect();
-            worst = f64::max(worst, places.miss(layout, state, 1 + index, &masses, (1e-3 * length).powi(2)));
+            let floor = least_mean_square(1 + index, length);
+            worst = f64::max(worst, places.miss(layout, state, 1 + index, &masses, floor));
         }
     }
     Ok(worst)

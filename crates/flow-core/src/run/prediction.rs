@@ -7,6 +7,7 @@ use super::observer::Quiet;
 use super::record::{Record, StopReason};
 use super::resolution::{MOST_NODES, fronts, size_above};
 use super::scene::{Frames, Nodes, Scene, Spacing};
+use super::seconds::Spending;
 use super::setup::Setup;
 use super::setup_error::SetupError;
 use super::simulation::Simulation;
@@ -108,7 +109,7 @@ pub fn predict(scene: &Scene) -> Result<Prediction, SetupError> {
     let frame_bytes = frame_bytes(frames, most_layout, record.fields.len());
     let file_bytes = file_bytes(scene, frame_bytes, steps * finer);
     let seconds_per_node =
-        record.seconds.frames / (record.frames.len() * record.frames[0].curvature.len()) as f64;
+        record.seconds[Spending::Frames] / (record.frames.len() * record.frames[0].curvature.len()) as f64;
     Ok(Prediction {
         nodes: layout.nodes(),
         most_nodes,

@@ -190,7 +190,7 @@ impl Record {
     /// All frames on the largest number of nodes among them.
     #[must_use]
     pub(super) fn on_common_nodes(mut self) -> Self {
-        let nodes = self.frames.iter().map(|frame| frame.curvature.len()).max().unwrap_or_default();
+        let nodes = self.frames.iter().map(Frame::nodes).max().unwrap_or_default();
         self.frames = self.frames.into_iter().map(|frame| frame.resampled(nodes)).collect();
         self
     }
@@ -198,7 +198,7 @@ impl Record {
     /// Number of nodes of the frames: the largest that the run had, where it chose them itself.
     #[must_use]
     pub fn nodes(&self) -> usize {
-        self.frames.last().map_or(0, |frame| frame.curvature.len())
+        self.frames.last().map_or(0, Frame::nodes)
     }
 
     /// The scene of the run, to run it again: as given, except that points which were read from a file stand in it.

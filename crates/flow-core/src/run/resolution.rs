@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use super::floors::least_mean_square;
 use super::scene::{Length, LengthTarget, Scene};
 use crate::geometry::vectors::dot;
 use crate::geometry::{Layout, SpectralLayout};
@@ -10,7 +11,7 @@ use crate::operators::DerivativeFamily;
 /// Fewest nodes that the automatic choice takes.
 pub const LEAST_NODES: usize = 32;
 /// Most nodes.
-pub const MOST_NODES: usize = 65536;
+pub const MOST_NODES: usize = super::scene::MOST_NODES;
 /// Part of the modes of a grid that should hold nothing.
 const EMPTY: f64 = 0.2;
 /// Largest distance of uniform nodes in units of ε: a front of width ε/√2 then spans about eight of them from
@@ -42,8 +43,7 @@ pub fn least_resolved(layout: Layout, state: &[f64], nodes: usize, family: Deriv
                 error * error * (spectrum[2 * mode].powi(2) + spectrum[2 * mode + 1].powi(2))
             })
             .sum();
-        // A turn of the tangent per length, a thousandth of full coverage, as in the norm of the errors.
-        let floor = if field == 0 { 1.0 } else { (1e-3 * length).powi(2) };
+        let floor = least_mean_square(field, length); // as in the norm of the errors
         let part = (missed / dot(spectrum, spectrum).max(floor)).sqrt();
         if part > worst.1 {
             worst = (field, part);

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use super::format::encode_ended;
 use super::pair::Pair;
 use crate::output::StorageError;
-use crate::run::{Memory, Observer, Record, Simulation, StopReason};
+use crate::run::{Memory, Observer, Record, Simulation, Spending, StopReason};
 
 /// Saving takes at most this part of the time.
 const SHARE: u32 = 20;
@@ -64,6 +64,6 @@ pub fn run_saving(mut simulation: Simulation, observer: &mut dyn Observer, savin
     output += clock.elapsed();
     let memory = simulation.memory();
     let mut record = simulation.into_record();
-    record.seconds.output += output.as_secs_f64();
+    record.seconds[Spending::Output] += output.as_secs_f64();
     Ended { record, memory, last }
 }

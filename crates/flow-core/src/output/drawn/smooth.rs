@@ -6,11 +6,8 @@ use crate::run::Frame;
 /// polynomials that they are (`THEORY.md`, eq. (D1)), not as polygons. A frame with gaps, or one that is fine enough, stays
 /// as it is.
 pub(in crate::output) fn smooth(frame: &Frame, least: usize) -> Frame {
-    let nodes = frame.curvature.len();
-    let fields = || {
-        let own = [&frame.curvature, &frame.metric, &frame.normal_velocity];
-        own.into_iter().chain(&frame.density).chain(&frame.fields).filter(|field| !field.is_empty())
-    };
+    let nodes = frame.nodes();
+    let fields = || frame.nodal_fields().filter(|field| !field.is_empty());
     let whole = frame.position.len() == nodes && fields().all(|field| field.len() == nodes);
     // One value that is not finite would spread over the whole curve.
     let finite = || fields().flatten().chain(frame.position.iter().flatten()).all(|value| value.is_finite());

@@ -1,7 +1,7 @@
 //! What is in a result file, once, for the writer and the reader: an entry is named after the Rust field it holds.
 
 use super::meanings::{self, Meaning};
-use crate::run::{Counters, EvaluationSeconds, Frame, Record, Rejections, Seconds, StepLog};
+use crate::run::{Counters, EvaluationSeconds, Frame, Record, Rejections, StepLog};
 
 /// The attribute `Conventions` of every result file; the number changes when readers must.
 pub const CONVENTIONS: &str = "Curveflow-1";
@@ -74,23 +74,6 @@ pub(super) static COUNTERS: &[Entry<Counters, u64>] = entries![Counters => u64:
     solves, "solves with a factorisation", "1";
     remaps, "changes of the nodes or of the gauge", "1";
     unresolved_steps, "steps whose state the nodes do not resolve: to the tolerance if they are automatic, to a thousandth if they are fixed; all if those miss initial data", "1";
-];
-
-/// Seconds of the whole run, in the order of its course.
-pub(super) static SECONDS: &[Entry<Seconds, f64>] = entries![Seconds => f64:
-    start, "from the scene to the first frame", "s";
-    right_hand_sides, "right-hand sides at the iterates of Newton's method", "s";
-    linearisations, "linearisations, with a right-hand side each", "s";
-    jacobian_products, "products of the implicit operator with a vector", "s";
-    factorisations, "factorisations of the preconditioner", "s";
-    solves, "solves with the preconditioner", "s";
-    krylov, "orthogonalisation and the rest of the linear solves", "s";
-    checks, "closure, energy and dissipation of the candidates", "s";
-    step_control, "predictor, error, step size and order", "s";
-    remaps, "changes of the nodes or of the gauge", "s";
-    frames, "frames with all that they hold", "s";
-    observers, "progress, callbacks, contact, equilibrium", "s";
-    output, "checkpoints and this file until here", "s";
 ];
 
 /// Parts of the evaluations besides the terms of the energy.

@@ -3,10 +3,10 @@
 use hdf5_metno::{Error, File, Group, Result as Hdf5Result};
 
 use super::dataset::building;
-use super::layout::{EVALUATIONS, SECONDS};
+use super::layout::EVALUATIONS;
 use super::provenance::write_number;
 use crate::output::StorageError;
-use crate::run::{EvaluationSeconds, Seconds};
+use crate::run::{EvaluationSeconds, Seconds, Spending};
 
 const GROUP: &str = "seconds";
 const PARTS: &str = "evaluations";
@@ -14,8 +14,8 @@ const PARTS: &str = "evaluations";
 /// Writes `seconds`, with those of each of `terms`.
 pub(super) fn write(file: &File, seconds: &Seconds, terms: &[String]) -> Result<(), StorageError> {
     let group = file.create_group(GROUP).map_err(building(GROUP))?;
-    for entry in SECONDS {
-        write_number(&group, entry.name, (entry.get)(seconds))?;
+    for (name, value) in seconds.by_activity() {
+        write_number(&group, name, &value)?;
     }
     let parts = group.create_group(PARTS).map_err(building(PARTS))?;
     for entry in EVALUATIONS {
@@ -40,9 +40,9 @@ pub(super) fn read(file: &File, terms: &[String]) -> Result<Seconds, (String, Er
     let read = || -> Hdf5Result<Seconds> {
         let group = file.group(GROUP)?;
         let parts = group.group(PARTS)?;
-        let mut seconds = Seconds { evaluations: of_evaluations(&parts, terms)?, ..Seconds::default() };
-        for entry in SECONDS {
-            *(entry.slot)(&mut seconds) = number(&group, entry.name)?;
+        let mut seconds = Seconds::new(|_| 0.0, of_evaluations(&parts, terms)?);
+        for spending in Spending::ALL {
+            seconds[spending] = number(&group, spending.name())?;
         }
         Ok(seconds)
     };

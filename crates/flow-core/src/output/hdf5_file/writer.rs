@@ -10,8 +10,9 @@ use super::dataset::{Axis, axis, building, dataset, labelled_axis, write_text};
 use super::layout::{CAUSES, FRAME_VALUES, NAMED_FIELDS, NAMED_VALUES, NODAL_FIELDS, STEP_VALUES};
 use super::meanings::Meaning;
 use super::{provenance, seconds};
+use crate::output::rectangle::{check, check_frames};
 use crate::output::{StorageError, atomic_file};
-use crate::run::{Frame, Record, Seconds};
+use crate::run::{Frame, Record, Seconds, Spending};
 
 /// Writes `record` to `path`; an existing file is replaced only if `replace`.
 /// # Errors
@@ -25,10 +26,10 @@ pub fn write(record: &Record, path: &Path, replace: bool) -> Result<(), StorageE
 /// # Errors
 /// As for [`write()`].
 pub fn write_timed(record: &mut Record, path: &Path, replace: bool) -> Result<(), StorageError> {
-    let (clock, before) = (Instant::now(), record.seconds.output);
+    let (clock, before) = (Instant::now(), record.seconds[Spending::Output]);
     let so_far = || before + clock.elapsed().as_secs_f64();
     atomic_file::write(path, &encode(record, so_far)?, replace)?;
-    record.seconds.output = so_far();
+    record.seconds[Spending::Output] = so_far();
     Ok(())
 }
 
@@ -36,7 +37,7 @@ pub fn write_timed(record: &mut Record, path: &Path, replace: bool) -> Result<()
 /// # Errors
 /// [`StorageError::Ragged`] if its frames differ in size, [`StorageError::Build`] if memory runs out.
 pub fn to_bytes(record: &Record) -> Result<Vec<u8>, StorageError> {
-    encode(record, || record.seconds.output)
+    encode(record, || record.seconds[Spending::Output])
 }
 
 /// The bytes of `record`, with what `output` tells of the time that the output takes, asked for last.
@@ -51,7 +52,8 @@ fn encode(record: &Record, output: impl FnOnce() -> f64) -> Result<Vec<u8>, Stor
     write_steps(&file, record)?;
     provenance::write(&file, record)?;
     if record.seconds != Seconds::default() {
-        let seconds = Seconds { output: output(), ..record.seconds.clone() };
+        let mut seconds = record.seconds.clone();
+        seconds[Spending::Output] = output();
         seconds::write(&file, &seconds, &record.energy_terms)?;
     }
     hdf5_image::file_image(&file).map_err(building("the image of the file"))
@@ -143,22 +145,7 @@ fn flat<'a>(record: &'a Record, field: impl Fn(&'a Frame) -> &'a [f64]) -> Vec<f
 
 /// A file is a set of rectangles: every frame has the same sizes, every step an entry in each list.
 fn check_rectangular(record: &Record) -> Result<(), StorageError> {
-    let n = record.nodes();
-    for (index, frame) in record.frames.iter().enumerate() {
-        for list in NAMED_VALUES {
-            check(list.group, index, (list.get)(frame).len(), (list.names)(record).len())?;
-        }
-        for list in NAMED_FIELDS {
-            check(list.group, index, (list.get)(frame).len(), (list.names)(record).len())?;
-            for field in (list.get)(frame) {
-                check(list.group, index, field.len(), n)?;
-            }
-        }
-        check("position", index, frame.position.len(), n)?;
-        for entry in NODAL_FIELDS {
-            check(entry.name, index, (entry.get)(frame).len(), n)?;
-        }
-    }
+    check_frames(record)?;
     if record.seconds != Seconds::default() {
         check("seconds/evaluations", 0, record.seconds.evaluations.terms.len(), record.energy_terms.len())?;
     }
@@ -169,8 +156,4 @@ fn check_rectangular(record: &Record) -> Result<(), StorageError> {
     check("steps/order", 0, record.steps.order.len(), steps)?;
     check("steps/nodes", 0, record.steps.nodes.len(), steps)?;
     check("steps/rejections", 0, record.steps.rejections.len(), steps)
-}
-
-fn check(item: &'static str, index: usize, found: usize, expected: usize) -> Result<(), StorageError> {
-    if found == expected { Ok(()) } else { Err(StorageError::Ragged { item, index, found, expected }) }
 }

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use super::payload::Payload;
 use super::text::escaped;
+use crate::output::rectangle::check_frames;
 use crate::output::{StorageError, atomic_file};
-use crate::run::{Frame, Record};
+use crate::run::Record;
 
 const PAGE: &str = include_str!("browser/page.html");
 const STYLE: &str = include_str!("browser/page.css");
@@ -56,7 +57,11 @@ pub fn view(record: &Record, path: &Path, replace: bool) -> Result<(), PageError
 /// # Errors
 /// [`PageError::NoFrames`], or [`StorageError::Ragged`] if a frame is not like the last one.
 pub fn html(record: &Record) -> Result<String, PageError> {
-    check(record)?;
+    // Frames that do not fit together would be shown in each other's place.
+    if record.frames.is_empty() {
+        return Err(PageError::NoFrames);
+    }
+    check_frames(record)?;
     let payload = Payload::new(record);
     let title = escaped(&record.title);
     let mut parts = PAGE.split("{{");
@@ -78,43 +83,4 @@ pub fn html(record: &Record) -> Result<String, PageError> {
         document.push_str(text);
     }
     Ok(document)
-}
-
-/// Frames that do not fit together would be shown in each other's place.
-fn check(record: &Record) -> Result<(), PageError> {
-    if record.frames.is_empty() {
-        return Err(PageError::NoFrames);
-    }
-    let nodes = record.nodes();
-    for (index, frame) in record.frames.iter().enumerate() {
-        for (item, found, expected) in lengths(record, frame, nodes) {
-            if found != expected {
-                return Err(StorageError::Ragged { item, index, found, expected }.into());
-            }
-        }
-    }
-    Ok(())
-}
-
-/// What a frame holds, how many values it has and should have.
-fn lengths<'a>(
-    record: &'a Record,
-    frame: &'a Frame,
-    nodes: usize,
-) -> impl Iterator<Item = (&'static str, usize, usize)> + 'a {
-    let fields = |item, fields: &'a [Vec<f64>]| fields.iter().map(move |field| (item, field.len(), nodes));
-    [
-        ("energy_terms", frame.energy_terms.len(), record.energy_terms.len()),
-        ("mass", frame.mass.len(), record.densities.len()),
-        ("density", frame.density.len(), record.densities.len()),
-        ("fields", frame.fields.len(), record.fields.len()),
-        ("diagnostics", frame.diagnostics.len(), record.diagnostics.len()),
-        ("position", frame.position.len(), nodes),
-        ("curvature", frame.curvature.len(), nodes),
-        ("metric", frame.metric.len(), nodes),
-        ("normal_velocity", frame.normal_velocity.len(), nodes),
-    ]
-    .into_iter()
-    .chain(fields("density", &frame.density))
-    .chain(fields("fields", &frame.fields))
 }

@@ -1,6 +1,7 @@
 //! How the values at the ticks of a linear axis are written: what they share stands in the name of the axis.
 
-use super::numbers::{decade, power_of_ten, signed, trimmed};
+use super::numbers::{decade, power_of_ten, signed};
+use crate::output::drawn::trimmed;
 
 /// Digits of a label at most; values that need more are written as differences.
 const MOST_DIGITS: i32 = 5;

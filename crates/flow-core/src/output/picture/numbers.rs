@@ -1,5 +1,7 @@
 //! Numbers as texts.
 
+use crate::output::drawn::trimmed;
+
 /// A number in running text, with about three digits.
 pub(super) fn number(value: f64) -> String {
     if value == 0.0 || (1e-2..1e5).contains(&value.abs()) {
@@ -38,11 +40,6 @@ pub(super) fn signed(text: &str) -> String {
 pub(super) fn decade(value: f64) -> i32 {
     // A power of ten may be a little less by rounding.
     (value.log10() + 1e-9).floor() as i32
-}
-
-/// Without the zeros at the end of its decimals.
-pub(super) fn trimmed(text: &str) -> &str {
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
 }
 
 #[cfg(test)]

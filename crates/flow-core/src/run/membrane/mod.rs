@@ -7,6 +7,7 @@ mod solver;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
+use super::floors::least_mean_square;
 use super::invariants::Invariants;
 use crate::flow::{GradientFlow, LinearSolver, Rate};
 use crate::geometry::vectors::{mean_of_product, multiply, sum};
@@ -183,12 +184,7 @@ impl Problem for Membrane {
 
     fn block_floor(&self, block: usize, y: &[f64]) -> f64 {
         let length = y[self.flow.spectral_layout().length_index()];
-        match block {
-            // A turn of the tangent per length, a thousandth of full coverage.
-            0 => 1.0,
-            _ if block < self.flow.layout().fields() => (1e-3 * length).powi(2),
-            _ => f64::MIN_POSITIVE,
-        }
+        if block < self.flow.layout().fields() { least_mean_square(block, length) } else { f64::MIN_POSITIVE }
     }
 
     fn rate(&mut self, y: &[f64], rate: &mut [f64]) {

@@ -8,13 +8,16 @@ use super::count::serialize_count;
 use super::entry::Entry;
 use super::error::{Bound, Fault};
 use super::flow::NormalMobility;
-use super::keywords::{Within, inline_schema, number};
+use super::keywords::{Within, inline_schema};
 use super::section::Section;
-use crate::operators::Helmholtz;
+use crate::operators::{DerivativeFamily, Helmholtz};
 
-const TOLERANCE: Bound = Bound::Between(1e-11, 1e-1);
-const MIN_NODES: f64 = 8.0;
-const MAX_NODES: f64 = 65_536.0;
+/// The tightest tolerance is at the rounding of double precision.
+pub(in crate::run) const TIGHTEST: f64 = 1e-11;
+pub(in crate::run) const LOOSEST: f64 = 1e-1;
+pub(in crate::run) const FEWEST_NODES: usize = 8;
+pub(in crate::run) const MOST_NODES: usize = 65_536;
+const TOLERANCE: Bound = Bound::Between(TIGHTEST, LOOSEST);
 
 /// Table `[accuracy]`; may be left out.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -83,6 +86,21 @@ names! {
     }
 }
 
+impl Derivative {
+    /// The family that it names; none if the program chooses.
+    #[must_use]
+    pub fn family(self) -> Option<DerivativeFamily> {
+        match self {
+            Self::Auto => None,
+            Self::Fourier => Some(DerivativeFamily::Fourier),
+            Self::Central2 => Some(DerivativeFamily::Central2),
+            Self::Central4 => Some(DerivativeFamily::Central4),
+            Self::Central6 => Some(DerivativeFamily::Central6),
+            Self::Central8 => Some(DerivativeFamily::Central8),
+        }
+    }
+}
+
 impl Default for Accuracy {
     fn default() -> Self {
         Self {
@@ -121,7 +139,7 @@ fn check_mobility(section: &Section<'_>, mobility: NormalMobility, nodes: Option
     if let Some(Nodes::Count(count)) = nodes.filter(|_| band)
         && count < Helmholtz::FEWEST_NODES
     {
-        let bound = Bound::Between(Helmholtz::FEWEST_NODES as f64, MAX_NODES);
+        let bound = Bound::Between(Helmholtz::FEWEST_NODES as f64, MOST_NODES as f64);
         let remedy = "an incompressible curve needs more; try 128, or \"auto\"";
         let (value, written) = (count as f64, count.to_string());
         section.fault("nodes", Fault::OutOfRange { value, written, bound, remedy });
@@ -133,7 +151,7 @@ fn read_nodes(entry: &Entry<'_>) -> Option<Nodes> {
         return Some(Nodes::Auto);
     }
     let remedy = "try 256, or \"auto\"";
-    let bound = Bound::Between(MIN_NODES, MAX_NODES);
+    let bound = Bound::Between(FEWEST_NODES as f64, MOST_NODES as f64);
     entry.integer_or("an integer or \"auto\"", bound, remedy).map(|count| Nodes::Count(count as usize))
 }
 
@@ -142,7 +160,7 @@ inline_schema!(
     json_schema!({
         "anyOf": [
             { "type": "string", "const": "auto" },
-            { "type": "integer", "minimum": number(MIN_NODES), "maximum": number(MAX_NODES) },
+            { "type": "integer", "minimum": FEWEST_NODES, "maximum": MOST_NODES },
         ],
     })
 );

@@ -48,6 +48,7 @@ mod switch;
 mod time;
 
 pub use accuracy::{Accuracy, Derivative, LinearSolver, Nodes};
+pub(super) use accuracy::{FEWEST_NODES, LOOSEST, MOST_NODES, TIGHTEST};
 pub use curve::{Curve, Shape};
 pub use density::{Density, DensityMobility};
 pub use document::{MAX_SCENE_BYTES, Scene};

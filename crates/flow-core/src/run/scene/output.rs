@@ -101,7 +101,7 @@ impl Output {
         let (frames, spacing, times) = (section.get("frames"), section.get("spacing"), section.get("times"));
         let fields = section.get("fields").map_or(Some(Vec::new()), |entry| read_fields(&entry));
         let count = frames.as_ref().map_or(Some(default_frames()), read_count);
-        let spaced = spacing.as_ref().map_or(Some(default_spacing()), |entry| entry.choice());
+        let spaced = spacing.as_ref().map_or(Some(default_spacing()), Entry::choice);
         if times.is_some() {
             for key in ["frames", "spacing"].into_iter().filter(|key| section.has(key)) {
                 let remedy = "keep `times` alone, or `frames` with `spacing`";
@@ -120,7 +120,7 @@ impl Output {
 /// The names in order, each once.
 fn read_fields(entry: &Entry<'_>) -> Option<Vec<OutputField>> {
     let list = entry.list("a list of names")?;
-    let all: Vec<Option<OutputField>> = list.iter().map(|entry| entry.choice()).collect();
+    let all: Vec<Option<OutputField>> = list.iter().map(Entry::choice).collect();
     let mut fields = Vec::new();
     for field in all.into_iter().collect::<Option<Vec<_>>>()? {
         if !fields.contains(&field) {

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use crate::flow::{EvaluationCost, PartCosts};
 use crate::integrator::{Activity, Stopwatch};
-use crate::run::seconds::{EvaluationSeconds, Seconds};
+use crate::run::seconds::{EvaluationSeconds, Seconds, Spending};
 
 /// Time by what it was spent on, in seconds.
 #[derive(Clone, Debug, Default)]
@@ -36,23 +36,16 @@ impl Clocks {
         let clocked: f64 = Activity::ALL.iter().map(|activity| self.watch.seconds(*activity)).sum();
         // The clocked steps stand for all of them; without any, all is left to the control of the steps.
         let scale = if clocked > 0.0 { self.integration / clocked } else { 0.0 };
-        let of = |activity| scale * self.watch.seconds(activity);
-        let mut seconds = Seconds {
-            start: self.start,
-            right_hand_sides: of(Activity::RightHandSide),
-            linearisations: of(Activity::Linearisation),
-            jacobian_products: of(Activity::JacobianProduct),
-            factorisations: of(Activity::Factorisation),
-            solves: of(Activity::Solve),
-            krylov: of(Activity::Krylov),
-            checks: of(Activity::Check),
-            step_control: if clocked > 0.0 { of(Activity::StepControl) } else { self.integration },
-            remaps: self.remaps,
-            frames: self.frames,
-            observers: self.observers,
-            output: 0.0,
-            evaluations: EvaluationSeconds::default(),
+        let of = |spending| match spending {
+            Spending::Start => self.start,
+            Spending::Step(Activity::StepControl) if clocked <= 0.0 => self.integration,
+            Spending::Step(activity) => scale * self.watch.seconds(activity),
+            Spending::Remaps => self.remaps,
+            Spending::Frames => self.frames,
+            Spending::Observers => self.observers,
+            Spending::Output => 0.0,
         };
+        let mut seconds = Seconds::new(of, EvaluationSeconds::default());
         seconds.evaluations = self.evaluations(costs, &seconds);
         seconds
     }
@@ -67,9 +60,9 @@ impl Clocks {
         };
         let replayed = |cost: &EvaluationCost| beside_checks(cost) + calls(Activity::Check) * cost.check;
         // The run may have been slower than the replay. A check does more than the replay of its evaluation tells.
-        let measured = seconds.right_hand_sides + seconds.linearisations + seconds.jacobian_products;
-        let slower = (measured / beside_checks(&costs.whole)).max(0.0); // 0 if there was no evaluation
         let total = seconds.in_evaluations();
+        let measured = total - seconds[Spending::Step(Activity::Check)];
+        let slower = (measured / beside_checks(&costs.whole)).max(0.0); // 0 if there was no evaluation
         let parts = costs.terms.iter().chain([&costs.normal_mobility, &costs.density_mobilities]);
         let sum: f64 = parts.map(|cost| slower * replayed(cost)).sum();
         // Parts are never more than the whole.

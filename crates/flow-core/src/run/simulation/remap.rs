@@ -7,6 +7,7 @@ use super::discretised::Discretised;
 use crate::energies::TermFault;
 use crate::integrator::{Factorisation, Finish, Multistep, Problem, Stepper};
 use crate::run::adaptation::{Look, Plan, Way};
+use crate::run::equilibrium::energy_scale;
 use crate::run::failure::Failure;
 use crate::run::mesh::Mesh;
 use crate::run::resolution::unresolved;
@@ -18,8 +19,6 @@ const FIXED_LOOKS: u64 = 8;
 /// Part of a field, and of the tolerance if that is more, that they may leave unresolved without a word.
 const COARSE: f64 = 1e-3;
 const COARSE_PART: f64 = 0.1;
-/// Part of the energy lost so far below which an energy counts as zero.
-const ENERGY_FLOOR: f64 = 1e-3;
 
 impl Simulation {
     /// Takes other nodes if the state at hand asks for them or allows it.
@@ -110,8 +109,9 @@ impl Simulation {
             return Err(too_many.map(|fault| Failure::Term { time, fault }));
         };
         let error = new_energy - energy;
-        let scale = energy.abs().max(ENERGY_FLOOR * (self.start.energy - energy).abs());
-        if !resolves_more(&plan, &self.on.mesh) && error.abs() > self.tolerance * scale {
+        if !resolves_more(&plan, &self.on.mesh)
+            && error.abs() > self.tolerance * energy_scale(self.start.energy, energy)
+        {
             return Err(None);
         }
         memory.factorisation = Factorisation::default();

@@ -208,7 +208,7 @@ impl Simulation {
         simulation.go_on_by(stepper, memory.energy, memory.counters);
         simulation.integration.watch_on(memory.rest);
         simulation.record.counters = memory.counters;
-        let nodes = frames.iter().map(|frame| frame.curvature.len()).max();
+        let nodes = frames.iter().map(Frame::nodes).max();
         simulation.frame_room = FrameRoom::new(nodes.unwrap_or_default());
         simulation.record.frames = frames;
         simulation.record.steps = steps;

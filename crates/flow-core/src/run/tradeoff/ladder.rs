@@ -1,15 +1,11 @@
 //! Which tolerances are measured, and how much tighter the reference is.
 
-use super::super::resolution;
+use super::super::scene::{FEWEST_NODES, LOOSEST, MOST_NODES, TIGHTEST};
 
-/// Tightest tolerance that a scene may ask for: the rounding of double precision.
-const TIGHTEST: f64 = 1e-11;
 /// The reference must be tighter than any rung by a factor that makes its own error small.
 const TIGHTEST_RUNG: f64 = 1e-10;
-const LOOSEST: f64 = 1e-1;
 /// How many times tighter than the tightest rung the reference is.
 const REFERENCE: f64 = 100.0;
-const FEWEST_NODES: usize = 8;
 
 /// Tolerances in falling order.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,9 +33,8 @@ pub enum LadderError {
     Repeated { value: f64 },
     /// A number of nodes that no scene may have.
     #[error(
-        "the reference cannot have {nodes} nodes: they must be between {FEWEST_NODES} and {}; try twice those of \
-         the scene",
-        resolution::MOST_NODES
+        "the reference cannot have {nodes} nodes: they must be between {FEWEST_NODES} and {MOST_NODES}; try twice those of \
+         the scene"
     )]
     ReferenceNodes { nodes: usize },
 }
@@ -71,7 +66,7 @@ impl Ladder {
             return Err(LadderError::Repeated { value: pair[0] });
         }
         match reference_nodes {
-            Some(nodes) if !(FEWEST_NODES..=resolution::MOST_NODES).contains(&nodes) => {
+            Some(nodes) if !(FEWEST_NODES..=MOST_NODES).contains(&nodes) => {
                 Err(LadderError::ReferenceNodes { nodes })
             }
             _ => Ok(Self { tolerances, reference_nodes }),

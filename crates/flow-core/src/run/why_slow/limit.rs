@@ -2,7 +2,7 @@
 
 use super::super::record::Record;
 use super::super::scene::{LinearSolver, Scene};
-use super::WhySlow;
+use super::{Spending, WhySlow};
 use crate::flow::MetricRole;
 
 /// What the time of a run goes up with most.
@@ -84,9 +84,10 @@ impl Limit {
         let rejected = |count: u64| count as f64 > REJECTED * attempts;
         match self {
             Self::NotMeasured => why.total <= 0.0,
-            Self::Start | Self::Observers => why.share(self.name()) > MOST,
+            Self::Start => why.share(Spending::Start) > MOST,
+            Self::Observers => why.share(Spending::Observers) > MOST,
             Self::Frames | Self::Output => {
-                let (frames, output) = (why.share("frames"), why.share("output"));
+                let (frames, output) = (why.share(Spending::Frames), why.share(Spending::Output));
                 frames + output > MOST && (frames >= output) == (self == Self::Frames)
             }
             Self::EnergyRises => rejected(why.rejections.energy_rise),
@@ -101,7 +102,7 @@ impl Limit {
 
     /// One sentence on it, and one thing to try.
     pub(super) fn explain(self, why: &WhySlow, record: &Record) -> (String, String) {
-        let percent = |activity: &str| format!("{:.0} %", 100.0 * why.share(activity));
+        let percent = |spending| format!("{:.0} %", 100.0 * why.share(spending));
         let rejections = &why.rejections;
         let (sentence, advice) = match self {
             Self::NotMeasured => (
@@ -109,18 +110,18 @@ impl Limit {
                 "run the scene again with this version",
             ),
             Self::Start => (
-                format!("the run is short: its start takes {} of the time", percent("start")),
+                format!("the run is short: its start takes {} of the time", percent(Spending::Start)),
                 "run many scenes in one process, from Python, rather than one in each",
             ),
             Self::Output if record.frames.len() <= FEW_FRAMES => (
-                format!("the run is short: its file takes {} of the time", percent("output")),
+                format!("the run is short: its file takes {} of the time", percent(Spending::Output)),
                 "run many scenes in one process, from Python, where results are files only if they are saved",
             ),
             Self::Frames | Self::Output => {
                 (saving(why), "save fewer frames (output.frames), or fewer fields (output.fields)")
             }
             Self::Observers => (
-                format!("those who watch the run take {} of the time", percent("observers")),
+                format!("those who watch the run take {} of the time", percent(Spending::Observers)),
                 "do less in the callback, or call it less often",
             ),
             Self::EnergyRises => (
@@ -149,7 +150,7 @@ impl Limit {
 }
 
 fn saving(why: &WhySlow) -> String {
-    let (frames, output) = (100.0 * why.share("frames"), 100.0 * why.share("output"));
+    let (frames, output) = (100.0 * why.share(Spending::Frames), 100.0 * why.share(Spending::Output));
     let files = if output > 0.0 { format!(", and files {output:.0} %") } else { String::new() };
     format!("frames take {frames:.0} % of the time{files}")
 }
@@ -163,7 +164,8 @@ fn as_long_as_they_may_be(why: &WhySlow) -> String {
 
 /// What takes the largest part of the time of the steps.
 fn largest_part(why: &WhySlow) -> String {
-    let aside = ["start", "frames", "observers", "output"];
+    let aside =
+        [Spending::Start, Spending::Frames, Spending::Observers, Spending::Output].map(Spending::name);
     let largest = why.activities.iter().find(|share| !aside.contains(&share.name.as_str()));
     largest.map_or_else(String::new, |share| {
         let name = super::text::readable(&share.name);

@@ -4,6 +4,7 @@ mod limit;
 mod text;
 
 use super::record::Record;
+use super::seconds::Spending;
 use crate::integrator::Rejections;
 pub use limit::Limit;
 
@@ -86,8 +87,8 @@ impl WhySlow {
         text::readable(name)
     }
 
-    /// The share of `activity`.
-    fn share(&self, activity: &str) -> f64 {
-        self.activities.iter().find(|share| share.name == activity).map_or(0.0, |share| share.share)
+    /// The share of `spending`.
+    fn share(&self, spending: Spending) -> f64 {
+        self.activities.iter().find(|share| share.name == spending.name()).map_or(0.0, |share| share.share)
     }
 }

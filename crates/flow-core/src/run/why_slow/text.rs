@@ -2,28 +2,37 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use super::{Share, WhySlow};
+use super::{Share, Spending, WhySlow};
+use crate::integrator::Activity;
 
 /// Shares below this are not shown.
 const SHOWN: f64 = 0.0005;
 
 /// A name as people read it.
 pub(super) fn readable(name: &str) -> &str {
+    if let Some(spending) = Spending::ALL.into_iter().find(|spending| spending.name() == name) {
+        return in_words(spending);
+    }
     match name {
-        "start" => "the start",
-        "right_hand_sides" => "right-hand sides",
-        "jacobian_products" => "Jacobian products",
-        "solves" => "preconditioner solves",
-        "krylov" => "Krylov orthogonalisation",
-        "checks" => "closure and energy checks",
-        "step_control" => "step and error control",
-        "frames" => "frames and diagnostics",
-        "observers" => "progress and callbacks",
-        "output" => "output",
         "normal_mobility" => "normal mobility",
         "density_mobilities" => "density mobilities",
         "flow_map" => "gauge, flow map, transforms",
         _ => name,
+    }
+}
+
+fn in_words(spending: Spending) -> &'static str {
+    match spending {
+        Spending::Start => "the start",
+        Spending::Step(Activity::RightHandSide) => "right-hand sides",
+        Spending::Step(Activity::JacobianProduct) => "Jacobian products",
+        Spending::Step(Activity::Solve) => "preconditioner solves",
+        Spending::Step(Activity::Krylov) => "Krylov orthogonalisation",
+        Spending::Step(Activity::Check) => "closure and energy checks",
+        Spending::Step(Activity::StepControl) => "step and error control",
+        Spending::Frames => "frames and diagnostics",
+        Spending::Observers => "progress and callbacks",
+        _ => spending.name(),
     }
 }
 

@@ -1,5 +1,7 @@
 //! Numbers in tables.
 
+use crate::output::drawn::trimmed;
+
 /// `value` with at most `digits` significant digits, as a person writes it.
 pub(super) fn short(value: f64, digits: i32) -> String {
     if !value.is_finite() {
@@ -18,11 +20,6 @@ pub(super) fn short(value: f64, digits: i32) -> String {
         format!("{}e{exponent}", trimmed(factor))
     };
     text.replace('-', "−")
-}
-
-/// Without the zeros at the end of its decimals.
-fn trimmed(text: &str) -> &str {
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
 }
 
 #[cfg(test)]
