@@ -27,7 +27,7 @@ impl Symbol {
     pub fn new(flow: &mut GradientFlow) -> Self {
         let fields = flow.layout().fields();
         let length = flow.frozen().length();
-        let laplacian = flow.grid_and_derivative().1.minus_laplacian().to_vec();
+        let laplacian = flow.derivative().minus_laplacian().to_vec();
         let jet = flow.energy_terms().jet();
         let mean = |a: usize, b: usize| jet.second(a, b).iter().sum::<f64>() / jet.second(a, b).len() as f64;
         let means = DMatrix::from_fn(fields, fields, mean);

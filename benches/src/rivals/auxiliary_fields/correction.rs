@@ -20,7 +20,7 @@ impl Correction {
     pub fn set(&mut self, flow: &mut GradientFlow, gamma: f64) {
         let nodes = flow.layout().nodes() as f64;
         let length = flow.frozen().length();
-        let exact = flow.grid_and_derivative().1.minus_laplacian().to_vec();
+        let exact = flow.derivative().minus_laplacian().to_vec();
         for (field, factors) in self.factors.chunks_exact_mut(self.modes).enumerate() {
             let second = flow.energy_terms().jet().second(field, field);
             let mean = (second.iter().sum::<f64>() / nodes).max(0.0);

@@ -61,7 +61,7 @@ impl CurveFields {
         if let (Some(field), Some(graded), Some(interpolation)) =
             (self.layout.metric(), &mut self.graded, derivative.interpolation())
         {
-            let metric = &layout.spectra(state)[field * self.modes..(field + 1) * self.modes];
+            let metric = &layout.spectra(state)[self.layout.spectrum(field)];
             self.length = metric[0].re;
             Arc::make_mut(&mut graded.grading).set(metric, interpolation, grid, &mut self.scratch);
         }
@@ -70,7 +70,7 @@ impl CurveFields {
         scale_into(bytemuck::cast_slice_mut(target), 1.0 / self.length, fields);
         for field in 0..self.layout.fields() {
             let range = self.layout.field(field);
-            let modes = field * self.modes..(field + 1) * self.modes;
+            let modes = self.layout.spectrum(field);
             let values = &mut self.pointwise[range.clone()];
             if let Some(Graded { grading, weighted }) = &self.graded {
                 grid.synthesise(&weighted[modes.clone()], values);
@@ -108,6 +108,15 @@ impl CurveFields {
     #[must_use]
     pub fn moving_metric(&self) -> Option<&Grading> {
         self.grading().filter(|_| self.layout.metric().is_some())
+    }
+
+    /// Index of the metric among the fields of the state, and the metric per length: for what is made for states that hold it.
+    ///
+    /// # Panics
+    /// If the state does not hold it.
+    #[must_use]
+    pub fn metric_field(&self) -> (usize, &Grading) {
+        self.layout.metric().zip(self.grading()).expect("the metric is a field of the state")
     }
 
     /// The weights w of the nodes; none if all are 1.
@@ -149,13 +158,13 @@ impl CurveFields {
     /// Fourier coefficients of field `field`.
     #[must_use]
     pub fn spectrum(&self, field: usize) -> &[Complex64] {
-        &self.spectra[field * self.modes..(field + 1) * self.modes]
+        &self.spectra[self.layout.spectrum(field)]
     }
 
     /// Fourier coefficients of w times field `field`: of the state per length.
     #[must_use]
     pub fn weighted_spectrum(&self, field: usize) -> &[Complex64] {
         let spectra = self.graded.as_ref().map_or(&self.spectra, |graded| &graded.weighted);
-        &spectra[field * self.modes..(field + 1) * self.modes]
+        &spectra[self.layout.spectrum(field)]
     }
 }

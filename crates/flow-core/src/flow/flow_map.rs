@@ -60,7 +60,18 @@ impl FlowMap {
         &self.gauge
     }
 
-    /// Grid and derivative, for others who work on the same nodes.
+    /// The derivative, for others who work on the same nodes.
+    #[must_use]
+    pub fn derivative(&self) -> &Derivative {
+        &self.work.derivative
+    }
+
+    /// The grid, with its scratch.
+    pub fn grid_mut(&mut self) -> &mut PeriodicGrid {
+        &mut self.work.grid
+    }
+
+    /// Both at once.
     pub fn grid_and_derivative(&mut self) -> (&mut PeriodicGrid, &Derivative) {
         (&mut self.work.grid, &self.work.derivative)
     }

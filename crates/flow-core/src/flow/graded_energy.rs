@@ -7,6 +7,7 @@ use crate::operators::{Derivative, GradedLaplacian};
 /// S with the images of the fields at the linearisation; holds its scratch.
 #[derive(Debug)]
 pub struct GradedEnergy {
+    layout: Layout,
     grid: PeriodicGrid,
     laplacian: GradedLaplacian,
     image: Vec<Complex64>,
@@ -20,6 +21,7 @@ impl GradedEnergy {
     pub fn of(layout: Layout, grid: &PeriodicGrid, derivative: &Derivative) -> Option<Self> {
         let laplacian = GradedLaplacian::of(grid, derivative)?;
         Some(Self {
+            layout,
             grid: grid.clone(),
             laplacian,
             image: vec![Complex64::default(); grid.modes()],
@@ -36,15 +38,13 @@ impl GradedEnergy {
 
     /// Keeps the image found last as that of `field` at the linearisation.
     pub fn freeze(&mut self, field: usize) {
-        let modes = self.image.len();
-        self.frozen[field * modes..(field + 1) * modes].copy_from_slice(&self.image);
+        self.frozen[self.layout.spectrum(field)].copy_from_slice(&self.image);
     }
 
     /// Spectrum of S of `field` at the linearisation.
     #[must_use]
     pub fn frozen(&self, field: usize) -> &[Complex64] {
-        let modes = self.image.len();
-        &self.frozen[field * modes..(field + 1) * modes]
+        &self.frozen[self.layout.spectrum(field)]
     }
 
     /// p becomes `density` + p/w.

@@ -94,7 +94,7 @@ impl GradientFlow {
     fn encoded(&mut self, nodal: &[f64]) -> Vec<f64> {
         let layout = self.spectral_layout();
         let mut state = vec![0.0; layout.len()];
-        layout.encode(self.grid_and_derivative().0, nodal, &mut state);
+        layout.encode(self.grid_mut(), nodal, &mut state);
         state
     }
 
@@ -109,8 +109,7 @@ impl GradientFlow {
     /// Nodal values of a spectral vector.
     pub fn decode(&mut self, state: &[f64], nodal: &mut [f64]) {
         let layout = self.spectral_layout();
-        let (grid, _) = self.grid_and_derivative();
         let mut scratch = vec![crate::geometry::Complex64::default(); layout.modes()];
-        layout.decode(grid, state, &mut scratch, nodal);
+        layout.decode(self.grid_mut(), state, &mut scratch, nodal);
     }
 }

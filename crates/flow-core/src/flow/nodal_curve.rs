@@ -10,6 +10,7 @@ use super::flow_map::FlowMap;
 use super::gauge::{Gauge, MetricRole};
 use super::nodal_error::NodalError;
 use super::normal_mobility::{Incompressible, MobilityError, NormalMobility};
+use crate::geometry::vectors::mean;
 use crate::geometry::{Complex64, Grading, GradingError, Layout, PeriodicGrid, SpectralLayout};
 use crate::operators::{CurveHelmholtz, Derivative, DerivativeFamily, Helmholtz};
 
@@ -165,11 +166,6 @@ pub(crate) fn nodal_state(curvature: &[f64], metric: &[f64], density: &[&[f64]],
     }
     y.push(mean(metric));
     y
-}
-
-/// ⟨g⟩, which is the length.
-fn mean(metric: &[f64]) -> f64 {
-    metric.iter().sum::<f64>() / metric.len() as f64
 }
 
 fn spectral(nodal: &[f64], layout: Layout, grid: &mut PeriodicGrid) -> Vec<f64> {

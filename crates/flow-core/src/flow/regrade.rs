@@ -93,7 +93,7 @@ impl Regrading {
             let mut values = self.points.values(from.current().spectrum(field));
             values.iter_mut().zip(&self.weight).for_each(|(value, weight)| *value *= length * weight);
             let total = old.spectra(state)[field * old.modes()].re;
-            let spectrum = &mut new.spectra_mut(&mut out)[field * new.modes()..(field + 1) * new.modes()];
+            let spectrum = &mut new.spectra_mut(&mut out)[new.spectrum(field)];
             self.grid.transform(&values, spectrum);
             // The interpolant has another mean, by its error: the masses and the turning number are put right.
             let missing = total - spectrum[0].re;
@@ -103,7 +103,7 @@ impl Regrading {
         }
         if let Some(metric) = self.metric {
             let values: Vec<f64> = self.weight.iter().map(|weight| length * weight).collect();
-            let spectrum = &mut new.spectra_mut(&mut out)[metric * new.modes()..(metric + 1) * new.modes()];
+            let spectrum = &mut new.spectra_mut(&mut out)[new.spectrum(metric)];
             self.grid.transform(&values, spectrum);
             spectrum[0] = Complex64::new(length, 0.0);
         }

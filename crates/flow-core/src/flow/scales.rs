@@ -1,4 +1,4 @@
-//! On which scales a state varies from place to place. See `THEORY.md`, eq. (D11).
+//! On which scales a state varies from place to place. See `THEORY.md`, eq. (D13).
 
 use super::gradient_flow::GradientFlow;
 use crate::geometry::vectors::multiply;
@@ -26,7 +26,7 @@ pub fn local_wave_numbers(flow: &mut GradientFlow) -> Vec<f64> {
             continue;
         }
         spectrum.copy_from_slice(flow.current().spectrum(field));
-        let (grid, _) = flow.grid_and_derivative();
+        let grid = flow.grid_mut();
         differentiate(grid, &mut spectrum, inverse.as_deref(), &mut first);
         grid.transform(&first, &mut spectrum);
         differentiate(grid, &mut spectrum, inverse.as_deref(), &mut second);

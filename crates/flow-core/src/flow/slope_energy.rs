@@ -1,6 +1,10 @@
-//! The part of the energy that depends on slopes, L⟨e′(φ, ∇_sφ)⟩ at the flux points, with its exact
-//! derivatives: p += Mᵀe′_φ + D₊ᵀe′_σ/L. The flux points are the midpoints here even where those of the flow are the nodes: there the
-//! sawtooth has no slope, costs nothing, and grows. On graded nodes L⟨we′(φ, D₊φ/(Lw))⟩, and 1/w is left to the sum. Built only if a term has it. See `THEORY.md`, eq. (D6).
+//! The part of the energy that depends on slopes, L⟨e′(φ, ∇_sφ)⟩ at the flux points, with its exact derivatives:
+//! p += Mᵀe′_φ + D₊ᵀe′_σ/L.
+//!
+//! The flux points are the midpoints here even where those of the flow are the nodes: at these the sawtooth has no slope, costs
+//! nothing, and grows. That is for flows built by hand; those of scenes with such a term have the midpoints throughout
+//! ([`Derivative::staggered`]). On graded nodes L⟨we′(φ, D₊φ/(Lw))⟩, and 1/w is left to the sum. Built only if a term has it.
+//! See `THEORY.md`, eq. (D6).
 
 use super::curve_fields::CurveFields;
 use super::intrinsic_gradient::IntrinsicGradient;
@@ -158,10 +162,10 @@ impl SlopeEnergy {
         length_motion: f64,
         out: &mut IntrinsicGradient,
     ) -> f64 {
-        let (fields, length, modes) = (self.layout.fields(), at.length(), self.grid.modes());
+        let (fields, length) = (self.layout.fields(), at.length());
         let mut by_length = 0.0;
         for field in 0..fields {
-            let spectrum = &motion_spectra[field * modes..(field + 1) * modes];
+            let spectrum = &motion_spectra[self.layout.spectrum(field)];
             match self.derivative.interpolation() {
                 None => self.spectrum.copy_from_slice(spectrum),
                 Some(symbol) => vectors::apply_symbol(&mut self.spectrum, spectrum, symbol),
@@ -211,9 +215,8 @@ impl SlopeEnergy {
 
     /// p += Mᵀ `product`.
     fn add_interpolated(&mut self, field: usize, out: &mut IntrinsicGradient) {
-        let modes = self.grid.modes();
         self.grid.transform(&self.product, &mut self.spectrum);
-        let p = &mut out.spectra[field * modes..(field + 1) * modes];
+        let p = &mut out.spectra[self.layout.spectrum(field)];
         match self.derivative.interpolation() {
             None => p.iter_mut().zip(&self.spectrum).for_each(|(p, value)| *p += value),
             Some(symbol) => {
@@ -226,9 +229,8 @@ impl SlopeEnergy {
 
     /// p += `scale` D₊ᵀ `product`.
     fn add_divergence(&mut self, field: usize, scale: f64, out: &mut IntrinsicGradient) {
-        let modes = self.grid.modes();
         self.grid.transform(&self.product, &mut self.spectrum);
-        let p = &mut out.spectra[field * modes..(field + 1) * modes];
+        let p = &mut out.spectra[self.layout.spectrum(field)];
         for ((p, value), symbol) in p.iter_mut().zip(&self.spectrum).zip(self.derivative.to_flux()) {
             *p += value * symbol.conj() * scale;
         }

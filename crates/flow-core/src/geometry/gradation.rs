@@ -1,4 +1,4 @@
-//! Gradings that follow the scales of a solution. See `THEORY.md`, eq. (D11).
+//! Gradings that follow the scales of a solution. See `THEORY.md`, eq. (D13).
 
 use multiversion::multiversion;
 

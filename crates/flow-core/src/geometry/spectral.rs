@@ -21,7 +21,7 @@ impl SpectralLayout {
     /// The spectral form of states of `nodal` layout.
     #[must_use]
     pub fn new(nodal: Layout) -> Self {
-        Self { nodal, modes: nodal.nodes() / 2 + 1 }
+        Self { nodal, modes: nodal.modes() }
     }
 
     /// Number of coefficients of a field.
@@ -52,6 +52,12 @@ impl SpectralLayout {
     #[must_use]
     pub fn field(&self, field: usize) -> Range<usize> {
         2 * self.modes * field..2 * self.modes * (field + 1)
+    }
+
+    /// The coefficients of field `field` among the spectra of all fields.
+    #[must_use]
+    pub fn spectrum(&self, field: usize) -> Range<usize> {
+        self.nodal.spectrum(field)
     }
 
     /// The spectra of all fields, one after the other.

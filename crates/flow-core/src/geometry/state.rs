@@ -1,8 +1,10 @@
-//! The state of a curve in the scaled arc-length gauge as one flat vector.
+//! The state of a curve as one flat vector.
 //!
-//! `[K₀ … Kₙ₋₁ | m¹₀ … | m²₀ … | L]` with K = κ|Γ| (turning per unit parameter), mʲ = ρʲ|Γ| (mass per unit
-//! parameter) and L = |Γ|. Turning number and masses are sums of the vector, so that every linear method
-//! keeps them to rounding. See `THEORY.md`, eq. (D2).
+//! `[K₀ … Kₙ₋₁ | m¹₀ … | m²₀ … | L]` with K = κg (turning per unit parameter), mʲ = ρʲg (mass per unit parameter) and
+//! L = |Γ|; a metric g that is a field of the state stands before L. On uniform nodes g = |Γ|, on graded ones |Γ|w. Turning
+//! number and masses are sums of the vector, so that every linear method keeps them to rounding. See `THEORY.md`, eq. (D2).
+
+use std::ops::Range;
 
 /// Shape of the state vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,6 +58,18 @@ impl Layout {
         1 + self.densities
     }
 
+    /// Number of Fourier coefficients of a field.
+    #[must_use]
+    pub fn modes(&self) -> usize {
+        self.nodes / 2 + 1
+    }
+
+    /// The coefficients of field `field` where the spectra of all fields stand one after the other.
+    #[must_use]
+    pub fn spectrum(&self, field: usize) -> Range<usize> {
+        field * self.modes()..(field + 1) * self.modes()
+    }
+
     /// Length of the state vector.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -76,7 +90,7 @@ impl Layout {
 
     /// Entries of field `field` (0: curvature, then the densities).
     #[must_use]
-    pub fn field(&self, field: usize) -> std::ops::Range<usize> {
+    pub fn field(&self, field: usize) -> Range<usize> {
         field * self.nodes..(field + 1) * self.nodes
     }
 
@@ -124,13 +138,13 @@ impl<'a> StateRef<'a> {
         self.layout
     }
 
-    /// Length |Γ| of the curve; also its uniform metric g.
+    /// Length |Γ| of the curve: the mean of its metric g, and g itself on uniform nodes.
     #[must_use]
     pub fn length(&self) -> f64 {
         self.values[self.layout.length_index()]
     }
 
-    /// K = κ|Γ| at the nodes.
+    /// K = κg at the nodes.
     #[must_use]
     pub fn turning_per_parameter(&self) -> &'a [f64] {
         self.field_per_parameter(0)
@@ -142,7 +156,7 @@ impl<'a> StateRef<'a> {
         &self.values[self.layout.field(field)]
     }
 
-    /// Pointwise field `field`: κ, ρ¹, ρ², …
+    /// Pointwise field `field` on uniform nodes: κ, ρ¹, ρ², …; on others it is that times g/|Γ|.
     #[must_use]
     pub fn pointwise(&self, field: usize) -> Vec<f64> {
         let length = self.length();

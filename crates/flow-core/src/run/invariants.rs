@@ -176,7 +176,7 @@ impl Invariants {
         closure: &mut Closure,
         excess: f64,
     ) -> bool {
-        let (grid, _) = flow.grid_and_derivative();
+        let grid = flow.grid_mut();
         let [x, y] = closure.embedding().position();
         for ((value, x), y) in self.values.iter_mut().zip(x).zip(y) {
             *value = 0.5 * (x * x + y * y);

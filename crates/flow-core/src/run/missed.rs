@@ -74,8 +74,7 @@ impl Places {
     /// square counts as `floor` at least.
     fn miss(&mut self, layout: Layout, state: &[f64], field: usize, data: &[f64], floor: f64) -> f64 {
         let spectral = SpectralLayout::new(layout);
-        let modes = spectral.modes();
-        let mut values = self.points.values(&spectral.spectra(state)[field * modes..(field + 1) * modes]);
+        let mut values = self.points.values(&spectral.spectra(state)[spectral.spectrum(field)]);
         if let Some(inverse) = &self.inverse {
             multiply(&mut values, inverse);
         }

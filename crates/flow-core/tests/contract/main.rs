@@ -26,6 +26,7 @@ mod states;
 mod stiff_curvature;
 mod stretched_time;
 mod terms;
+mod vanishing_cost;
 
 mod vectors;
 

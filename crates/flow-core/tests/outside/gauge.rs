@@ -24,10 +24,6 @@ impl Partly {
 }
 
 impl Gauge for Partly {
-    fn name(&self) -> &'static str {
-        "partly"
-    }
-
     fn metric(&self) -> MetricRole {
         MetricRole::Field
     }

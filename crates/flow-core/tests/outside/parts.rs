@@ -41,10 +41,6 @@ pub struct Drag {
 }
 
 impl NormalMobility for Drag {
-    fn name(&self) -> &'static str {
-        "drag"
-    }
-
     fn set(&mut self, at: &CurveFields) -> Result<(), MobilityError> {
         let mobility: Vec<f64> = at.at_nodes(0).iter().map(|kappa| 1.0 / (1.0 + kappa * kappa)).collect();
         self.mean = at.mean(&mobility);
@@ -74,10 +70,6 @@ pub struct SlowExchange {
 }
 
 impl DensityMobility for SlowExchange {
-    fn name(&self) -> &'static str {
-        "slow-exchange"
-    }
-
     fn follow(&mut self, grading: &Grading) {
         self.exchange.follow(grading);
     }

@@ -8,8 +8,8 @@ use crate::geometry::Complex64;
 pub struct Carried;
 
 impl DensityMobility for Carried {
-    fn name(&self) -> &'static str {
-        "none"
+    fn is_zero(&self) -> bool {
+        true
     }
 
     fn apply(&mut self, _: f64, _: &[Complex64], out: &mut [Complex64]) {

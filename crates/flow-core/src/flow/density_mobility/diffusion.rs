@@ -24,10 +24,6 @@ impl Diffusion {
 }
 
 impl DensityMobility for Diffusion {
-    fn name(&self) -> &'static str {
-        "diffusion"
-    }
-
     fn follow(&mut self, grading: &Grading) {
         if let Some(graded) = &mut self.graded {
             graded.follow(grading);

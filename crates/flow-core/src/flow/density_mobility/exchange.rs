@@ -19,10 +19,6 @@ impl Exchange {
 }
 
 impl DensityMobility for Exchange {
-    fn name(&self) -> &'static str {
-        "exchange"
-    }
-
     fn follow(&mut self, grading: &Grading) {
         if let Some(graded) = &mut self.graded {
             graded.follow(grading);

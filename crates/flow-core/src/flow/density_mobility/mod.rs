@@ -18,8 +18,10 @@ pub use weighted_diffusion::WeightedDiffusion;
 
 /// Turns the chemical potential ∂_ρ𝓕 into the rate of a density: Dρ/Dt = −𝓖∂_ρ𝓕.
 pub trait DensityMobility: Debug + Send + Sync {
-    /// Name in scenes.
-    fn name(&self) -> &'static str;
+    /// Whether 𝓖 = 0: the density is only carried along.
+    fn is_zero(&self) -> bool {
+        false
+    }
 
     /// Goes on with the metric `grading`, if the mobility was made for graded nodes.
     fn follow(&mut self, _grading: &Grading) {}

@@ -69,10 +69,6 @@ impl WeightedDiffusion {
 }
 
 impl DensityMobility for WeightedDiffusion {
-    fn name(&self) -> &'static str {
-        "diffusion"
-    }
-
     fn follow(&mut self, grading: &Grading) {
         if let Some(own) = &mut self.grading {
             Arc::make_mut(own).copy_from(grading);

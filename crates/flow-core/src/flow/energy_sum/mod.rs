@@ -150,7 +150,7 @@ impl EnergySum {
     }
 
     fn evaluate(&mut self, at: &CurveFields, order: Order, gradient: &mut IntrinsicGradient) -> f64 {
-        let (modes, length) = (self.grid.modes(), at.length());
+        let length = at.length();
         self.set_density(at, order);
         let of_length = self.of_length(length);
         if let Some(moving) = &mut self.moving {
@@ -163,7 +163,7 @@ impl EnergySum {
         let mut energy = length * mean_density + of_length.value;
         let mut by_length = mean_density + of_length.first;
         for field in 0..self.layout.fields() {
-            let p = &mut gradient.spectra[field * modes..(field + 1) * modes];
+            let p = &mut gradient.spectra[self.layout.spectrum(field)];
             let coefficient = self.stiffness[field];
             if self.graded.is_some() {
                 p.fill(Complex64::default());
@@ -198,7 +198,7 @@ impl EnergySum {
             by_length += derivative;
         }
         for field in 0..self.layout.fields() {
-            let p = &mut gradient.spectra[field * modes..(field + 1) * modes];
+            let p = &mut gradient.spectra[self.layout.spectrum(field)];
             if let Some(graded) = &mut self.graded {
                 graded.finish(self.jet.first(field), p);
             }
@@ -214,7 +214,7 @@ impl EnergySum {
     /// Second derivative times the motion `v` of the spectral state vector, at the state of the last
     /// [`EnergySum::linearise`], whose fields are `at`.
     pub fn hessian_product(&mut self, at: &CurveFields, v: &[f64], out: &mut IntrinsicGradient) {
-        let (fields, modes, length) = (self.layout.fields(), self.grid.modes(), at.length());
+        let (fields, length) = (self.layout.fields(), at.length());
         let (layout, of_length) = (SpectralLayout::new(self.layout), self.of_length(length));
         if let Some(moving) = &mut self.moving {
             moving.hessian_product(&self.jet, of_length, at, layout.spectra(v), out);
@@ -225,7 +225,7 @@ impl EnergySum {
         }
         let length_motion = v[layout.length_index()];
         for field in 0..fields {
-            let spectrum = &mut self.motion_spectra[field * modes..(field + 1) * modes];
+            let spectrum = &mut self.motion_spectra[self.layout.spectrum(field)];
             scale_into(bytemuck::cast_slice_mut(spectrum), 1.0 / length, &v[layout.field(field)]);
             add_spectrum(spectrum, -length_motion / length, at.weighted_spectrum(field));
             let motion = &mut self.motion[self.layout.field(field)];
@@ -242,7 +242,7 @@ impl EnergySum {
                 let motion = &self.motion[self.layout.field(other)];
                 add_product(&mut self.product, self.jet.second(field, other), motion);
             }
-            let p = &mut out.spectra[field * modes..(field + 1) * modes];
+            let p = &mut out.spectra[self.layout.spectrum(field)];
             if self.graded.is_some() {
                 self.density_rates[self.layout.field(field)].copy_from_slice(&self.product);
                 p.fill(Complex64::default());
@@ -251,8 +251,7 @@ impl EnergySum {
             }
             let coefficient = self.stiffness[field];
             if coefficient != 0.0 {
-                let (phi, motion) =
-                    (at.spectrum(field), &self.motion_spectra[field * modes..(field + 1) * modes]);
+                let (phi, motion) = (at.spectrum(field), &self.motion_spectra[self.layout.spectrum(field)]);
                 let scale = coefficient / (length * length);
                 let shrink = -2.0 * scale * length_motion / length;
                 let cross = if let Some(graded) = &mut self.graded {
@@ -273,7 +272,7 @@ impl EnergySum {
             by_length += slopes.add_hessian_product(at, &self.motion_spectra, length_motion, out);
         }
         for field in 0..fields {
-            let p = &mut out.spectra[field * modes..(field + 1) * modes];
+            let p = &mut out.spectra[self.layout.spectrum(field)];
             if let Some(graded) = &mut self.graded {
                 graded.finish(&self.density_rates[self.layout.field(field)], p);
             }

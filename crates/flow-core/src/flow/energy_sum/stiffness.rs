@@ -1,6 +1,7 @@
 //! What slopes cost: exactly, and on the mean for the preconditioners.
 
 use super::EnergySum;
+use crate::geometry::vectors::mean;
 
 /// Largest mixed cost, in geometric means of the two costs: less than one, or the costs would not be positive.
 const LARGEST_CROSS: f64 = 0.99;
@@ -10,6 +11,19 @@ impl EnergySum {
     #[must_use]
     pub fn stiffness(&self) -> &[f64] {
         &self.stiffness
+    }
+
+    /// Whether slopes of `field` may have a cost: at some state, not at that of the linearisation.
+    #[must_use]
+    pub fn may_be_stiff(&self, field: usize) -> bool {
+        self.stiffness[field] != 0.0 || self.slopes.is_some()
+    }
+
+    /// Mean over the nodes of ∂²e/∂φ² of `field` at the linearisation, zero if it is negative: a concave mean would make the
+    /// preconditioners singular, and they may leave it out.
+    #[must_use]
+    pub fn convex_mean(&self, field: usize) -> f64 {
+        mean(self.jet.second(field, field)).max(0.0)
     }
 
     /// [`EnergySum::stiffness`] and the mean of ∂²e′/∂(∇_sφ)² at the linearisation, unless it is negative: what the

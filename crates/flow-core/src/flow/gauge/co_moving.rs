@@ -10,10 +10,6 @@ use crate::geometry::vectors::{multiply, multiply_into, scale};
 pub struct CoMoving;
 
 impl Gauge for CoMoving {
-    fn name(&self) -> &'static str {
-        "co-moving"
-    }
-
     fn metric(&self) -> MetricRole {
         MetricRole::Field
     }
@@ -21,12 +17,11 @@ impl Gauge for CoMoving {
     /// g ↦ gκV; what the nodes carry stays.
     fn rates(&self, work: &mut Workspace, at: &CurveFields, v: &[f64], rates: &mut [Complex64]) -> f64 {
         rates.fill(Complex64::default());
-        let (Some(metric), Some(field)) = (at.moving_metric(), work.layout.metric()) else { return f64::NAN };
-        let (modes, length) = (work.grid.modes(), at.length());
+        let ((field, metric), length) = (at.metric_field(), at.length());
         multiply_into(&mut work.product, at.at_nodes(0), v);
         multiply(&mut work.product, metric.weight());
         scale(&mut work.product, length);
-        let stretch = &mut rates[field * modes..(field + 1) * modes];
+        let stretch = &mut rates[work.layout.spectrum(field)];
         work.grid.transform(&work.product, stretch);
         stretch[0].re
     }
@@ -35,14 +30,13 @@ impl Gauge for CoMoving {
     fn stretching(
         &self,
         work: &mut Workspace,
-        _: &CurveFields,
+        at: &CurveFields,
         gradient: &[Complex64],
         by_length: f64,
         out: &mut [f64],
     ) {
-        let Some(field) = work.layout.metric() else { return out.fill(f64::NAN) };
-        let modes = work.grid.modes();
-        work.spectrum.copy_from_slice(&gradient[field * modes..(field + 1) * modes]);
+        let (field, _) = at.metric_field();
+        work.spectrum.copy_from_slice(&gradient[work.layout.spectrum(field)]);
         work.grid.synthesise(&work.spectrum, out);
         for value in out {
             *value = -*value - by_length;

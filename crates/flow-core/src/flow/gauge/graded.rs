@@ -1,4 +1,4 @@
-//! Graded arc length: ∂_sW = w(−|Γ|κV + ∂_t|Γ|), ∫W dσ = 0, so that the metric stays |Γ|w. See `THEORY.md`, eq. (F17).
+//! Graded arc length: ∂_sW = w(−|Γ|κV + ∂_t|Γ|), ∫W dσ = 0, so that the metric stays |Γ|w. See `THEORY.md`, eq. (F3), second paragraph.
 
 use super::{Gauge, MetricRole, ScaledArcLength, Workspace};
 use crate::flow::CurveFields;
@@ -12,10 +12,6 @@ use crate::geometry::vectors::{
 pub struct Graded;
 
 impl Gauge for Graded {
-    fn name(&self) -> &'static str {
-        "graded"
-    }
-
     fn metric(&self) -> MetricRole {
         MetricRole::Graded
     }

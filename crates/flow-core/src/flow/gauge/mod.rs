@@ -35,9 +35,6 @@ pub enum MetricRole {
 /// A gauge holds no state: one may serve any number of flows. The part of the curvature's rate that no gauge changes,
 /// `−Δ_s`V, and its transpose are not its business.
 pub trait Gauge: Debug + Send + Sync {
-    /// Name in scenes.
-    fn name(&self) -> &'static str;
-
     /// What the metric is.
     fn metric(&self) -> MetricRole;
 

@@ -10,10 +10,6 @@ use crate::geometry::vectors::{multiply_by, multiply_by_conjugate, multiply_into
 pub struct ScaledArcLength;
 
 impl Gauge for ScaledArcLength {
-    fn name(&self) -> &'static str {
-        "scaled-arc-length"
-    }
-
     fn metric(&self) -> MetricRole {
         MetricRole::Uniform
     }

@@ -48,10 +48,9 @@ impl Workspace {
 
     /// ∂_s(φW) of each field φ into `rates`, W the values of `tangential` at the flux points: D₋(φW), D₋ = −conj(D₊).
     pub fn transport(&mut self, at: &CurveFields, rates: &mut [Complex64]) {
-        let modes = self.grid.modes();
         for field in 0..self.layout.fields() {
             multiply_into(&mut self.product, at.at_flux_points(field), &self.tangential);
-            let rate = &mut rates[field * modes..(field + 1) * modes];
+            let rate = &mut rates[self.layout.spectrum(field)];
             self.grid.transform(&self.product, rate);
             multiply_by_conjugate(rate, -1.0, self.derivative.to_flux());
         }
@@ -59,9 +58,8 @@ impl Workspace {
 
     /// Σ φ ∂_s p over the fields, at the flux points, into `product`: minus the transpose of [`Workspace::transport`].
     pub fn transport_transposed(&mut self, at: &CurveFields, gradient: &[Complex64]) {
-        let modes = self.grid.modes();
         for field in 0..self.layout.fields() {
-            let p = &gradient[field * modes..(field + 1) * modes];
+            let p = &gradient[self.layout.spectrum(field)];
             apply_symbol(&mut self.spectrum, p, self.derivative.to_flux());
             self.grid.synthesise(&self.spectrum, &mut self.values);
             let phi = at.at_flux_points(field);

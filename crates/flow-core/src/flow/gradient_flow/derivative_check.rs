@@ -133,7 +133,6 @@ impl Probe<'_> {
 
         self.at.set(state, self.grid, self.derivative);
         term.linearise(self.at, self.out);
-        term.hold_area(0.0); // a mobility that keeps the area may have left one to hold
         term.hessian_product(self.at, motion, self.out);
         let told = (self.out.spectra.clone(), self.out.by_length);
         let [told_sizes, rate_sizes] = [&told, &gradient_rate].map(|dual| self.sizes(dual));
@@ -202,7 +201,7 @@ impl Probe<'_> {
                 continue; // nothing pulls at it
             }
             let mut motion = vec![0.0; wave.len()];
-            let modes = field * spectral.modes()..(field + 1) * spectral.modes();
+            let modes = spectral.spectrum(field);
             let spectrum = &mut spectral.spectra_mut(&mut motion)[modes.clone()];
             spectrum.iter_mut().zip(&gradient.0[modes]).for_each(|(v, p)| *v = p * factor);
             if self.layout.metric() == Some(field) {

@@ -251,12 +251,12 @@ impl GradientFlow {
     }
 
     fn add_density_dissipation(&mut self, mut sum: f64) -> f64 {
-        let (length, modes) = (self.current.length(), self.spectrum.len());
+        let length = self.current.length();
         for (density, mobility) in self.density_mobilities.iter_mut().enumerate() {
             if let Some(metric) = self.current.moving_metric() {
                 mobility.follow(metric);
             }
-            let mu = &self.gradient.spectra[(density + 1) * modes..(density + 2) * modes];
+            let mu = &self.gradient.spectra[self.layout.spectrum(density + 1)];
             mobility.apply(length, mu, &mut self.spectrum);
             sum += length * self.map.mean_product(mu, &self.spectrum);
         }
@@ -274,13 +274,12 @@ impl GradientFlow {
         } else {
             self.map.rates_at_hand(at, &self.velocity, rates)
         };
-        let (grid, _) = self.map.grid_and_derivative();
-        let modes = grid.modes();
+        let grid = self.map.grid_mut();
         for (density, mobility) in self.density_mobilities.iter_mut().enumerate() {
             if let Some(metric) = at.moving_metric() {
                 mobility.follow(metric);
             }
-            let range = (density + 1) * modes..(density + 2) * modes;
+            let range = self.layout.spectrum(density + 1);
             mobility.apply(length, &self.gradient.spectra[range.clone()], &mut self.spectrum);
             add_spectrum(&mut rates[range], -length, &self.spectrum);
         }

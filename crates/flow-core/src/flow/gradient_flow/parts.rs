@@ -53,7 +53,18 @@ impl GradientFlow {
         &self.frozen
     }
 
-    /// Grid and derivative.
+    /// The derivative, for others who work on the same nodes.
+    #[must_use]
+    pub fn derivative(&self) -> &Derivative {
+        self.map.derivative()
+    }
+
+    /// The grid, with its scratch.
+    pub fn grid_mut(&mut self) -> &mut PeriodicGrid {
+        self.map.grid_mut()
+    }
+
+    /// Both at once.
     pub fn grid_and_derivative(&mut self) -> (&mut PeriodicGrid, &Derivative) {
         self.map.grid_and_derivative()
     }

@@ -6,7 +6,7 @@ use crate::geometry::Complex64;
 impl GradientFlow {
     /// Mean of the periodic antiderivative of nodal values of mean zero that starts from zero at node 0.
     pub fn mean_antiderivative(&mut self, values: &[f64]) -> f64 {
-        let (grid, _) = self.map.grid_and_derivative();
+        let grid = self.map.grid_mut();
         grid.transform(values, &mut self.spectrum);
         grid.integrate(&mut self.spectrum);
         // The integral has mean zero: less its value at node 0, the sum of its coefficients.
@@ -27,12 +27,12 @@ impl GradientFlow {
             }
             graded.solve(turning);
         } else {
-            let symbols = self.map.grid_and_derivative().1.minus_laplacian().iter();
+            let symbols = self.map.derivative().minus_laplacian().iter();
             for (value, symbol) in turning.iter_mut().zip(symbols) {
                 *value = if *symbol > 0.0 { *value / *symbol } else { Complex64::default() };
             }
         }
-        self.map.grid_and_derivative().0.synthesise(turning, velocity);
+        self.map.grid_mut().synthesise(turning, velocity);
     }
 
     /// K = −|Γ|`Δ_s` V of the velocity with the spectrum `velocity`, to leading order, at the frozen state.
@@ -44,7 +44,7 @@ impl GradientFlow {
             }
             graded.apply(velocity, turning);
         } else {
-            let symbols = self.map.grid_and_derivative().1.minus_laplacian();
+            let symbols = self.map.derivative().minus_laplacian();
             for ((turning, velocity), symbol) in turning.iter_mut().zip(velocity).zip(symbols) {
                 *turning = velocity * *symbol;
             }
@@ -66,7 +66,7 @@ impl GradientFlow {
         self.velocity_of_turning(&mut spectrum, &mut velocity);
         (self.spectrum, self.velocity) = (spectrum, velocity);
         self.map.rates(&self.frozen, &self.velocity, &mut self.gradient.spectra);
-        self.map.grid_and_derivative().0.make_real(&mut self.gradient.spectra);
+        self.map.grid_mut().make_real(&mut self.gradient.spectra);
         for (density, rate) in densities.iter_mut().zip(&self.gradient.spectra[modes..]) {
             *density += rate * factor;
         }

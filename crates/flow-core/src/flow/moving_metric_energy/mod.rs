@@ -81,9 +81,8 @@ impl MovingMetricEnergy {
         order: Order,
         gradient: &mut IntrinsicGradient,
     ) -> f64 {
-        let Some(metric) = at.grading() else { return f64::NAN };
-        let (nodes, fields, modes, length) =
-            (self.layout.nodes(), self.layout.fields(), self.grid.modes(), at.length());
+        let (place, metric) = at.metric_field();
+        let (nodes, fields, length) = (self.layout.nodes(), self.layout.fields(), at.length());
         self.evaluate_flux(terms, stiffness, at, metric, order);
         let per_node = length / nodes as f64;
         let energy = per_node
@@ -93,7 +92,7 @@ impl MovingMetricEnergy {
         self.product.copy_from_slice(self.flux_jet.value());
         for variable in fields..2 * fields {
             let stress = self.flux_jet.first(variable);
-            let slopes = &self.at_flux[variable * nodes..(variable + 1) * nodes];
+            let slopes = &self.at_flux[self.layout.field(variable)];
             self.product.iter_mut().zip(stress).zip(slopes).for_each(|((q, a), b)| *q -= a * b);
         }
         self.sum.fill(Complex64::default());
@@ -118,16 +117,16 @@ impl MovingMetricEnergy {
                 self.frozen_potential[potential.clone()].copy_from_slice(&self.values);
                 self.frozen_first[potential].copy_from_slice(jet.first(field));
             }
-            self.grid.transform(&self.values, &mut gradient.spectra[field * modes..(field + 1) * modes]);
+            self.grid.transform(&self.values, &mut gradient.spectra[self.layout.spectrum(field)]);
         }
         if order >= Order::Hessian {
             self.frozen_at_flux.copy_from_slice(&self.at_flux);
             for variable in 0..2 * fields {
-                self.frozen_stress[variable * nodes..(variable + 1) * nodes]
+                self.frozen_stress[self.layout.field(variable)]
                     .copy_from_slice(self.flux_jet.first(variable));
             }
         }
-        self.grid.transform(&self.by_metric, &mut gradient.spectra[fields * modes..(fields + 1) * modes]);
+        self.grid.transform(&self.by_metric, &mut gradient.spectra[self.layout.spectrum(place)]);
         gradient.by_length = 0.0;
         energy
     }
@@ -153,7 +152,7 @@ impl MovingMetricEnergy {
         of_length: LengthJet,
         at: &CurveFields,
     ) -> f64 {
-        let Some(metric) = at.grading() else { return f64::NAN };
+        let (_, metric) = at.metric_field();
         let stiffness: Vec<f64> = (0..self.layout.fields()).map(|field| term.stiffness(field)).collect();
         self.evaluate_flux(std::slice::from_mut(term), &stiffness, at, metric, Order::Gradient);
         let per_node = at.length() / self.layout.nodes() as f64;

@@ -23,16 +23,15 @@ impl MovingMetricEnergy {
         motion: &[Complex64],
         out: &mut IntrinsicGradient,
     ) {
-        let Some(metric) = at.grading() else { return };
-        let (nodes, fields, modes, length) =
-            (self.layout.nodes(), self.layout.fields(), self.grid.modes(), at.length());
-        let of_metric = &motion[fields * modes..(fields + 1) * modes];
+        let (place, metric) = at.metric_field();
+        let (fields, length) = (self.layout.fields(), at.length());
+        let of_metric = &motion[self.layout.spectrum(place)];
         self.grid.synthesise(of_metric, &mut self.metric_motion[0]);
         apply_symbol(&mut self.spectrum, of_metric, &self.interpolation);
         self.grid.synthesise(&self.spectrum, &mut self.metric_motion[1]);
         self.by_metric.fill(of_length.second * of_metric[0].re);
         for field in 0..fields {
-            self.move_field(field, at, metric, &motion[field * modes..(field + 1) * modes]);
+            self.move_field(field, at, metric, &motion[self.layout.spectrum(field)]);
             let range = self.layout.field(field);
             add_product(&mut self.by_metric, &self.frozen_first[range.clone()], &self.motion[range]);
         }
@@ -85,10 +84,9 @@ impl MovingMetricEnergy {
             for ((q, (p, change)), (phi, p_change)) in self.by_metric.iter_mut().zip(potential).zip(fields) {
                 *q -= p * change + phi * p_change;
             }
-            self.grid.transform(&self.values, &mut out.spectra[field * modes..(field + 1) * modes]);
+            self.grid.transform(&self.values, &mut out.spectra[self.layout.spectrum(field)]);
         }
-        debug_assert_eq!(nodes, self.values.len());
-        self.grid.transform(&self.by_metric, &mut out.spectra[fields * modes..(fields + 1) * modes]);
+        self.grid.transform(&self.by_metric, &mut out.spectra[self.layout.spectrum(place)]);
         out.by_length = 0.0;
     }
 

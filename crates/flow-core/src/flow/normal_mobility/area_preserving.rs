@@ -8,10 +8,6 @@ use crate::flow::CurveFields;
 pub struct AreaPreserving;
 
 impl NormalMobility for AreaPreserving {
-    fn name(&self) -> &'static str {
-        "area-preserving"
-    }
-
     fn apply(&mut self, at: &CurveFields, force: &[f64], velocity: &mut [f64]) {
         let mean = at.mean(force);
         for (v, f) in velocity.iter_mut().zip(force) {

@@ -8,10 +8,6 @@ use crate::flow::CurveFields;
 pub struct Identity;
 
 impl NormalMobility for Identity {
-    fn name(&self) -> &'static str {
-        "identity"
-    }
-
     fn is_identity(&self) -> bool {
         true
     }

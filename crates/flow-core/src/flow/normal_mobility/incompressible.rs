@@ -38,10 +38,6 @@ impl Incompressible {
 }
 
 impl NormalMobility for Incompressible {
-    fn name(&self) -> &'static str {
-        "incompressible"
-    }
-
     fn set(&mut self, at: &CurveFields) -> Result<(), MobilityError> {
         let kappa = at.at_nodes(0);
         if let Some(metric) = at.moving_metric() {

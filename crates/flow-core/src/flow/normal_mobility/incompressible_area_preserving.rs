@@ -33,10 +33,6 @@ impl IncompressibleAreaPreserving {
 }
 
 impl NormalMobility for IncompressibleAreaPreserving {
-    fn name(&self) -> &'static str {
-        "incompressible-area-preserving"
-    }
-
     fn set(&mut self, at: &CurveFields) -> Result<(), MobilityError> {
         self.incompressible.set(at)?;
         self.one.fill(1.0);

@@ -39,11 +39,13 @@ pub struct Kept {
 
 /// Turns the force on the normal motion into the normal velocity; holds what it needs of one state.
 pub trait NormalMobility: Debug + Send + Sync {
-    /// Name in scenes.
-    fn name(&self) -> &'static str;
-
     /// Whether V = f.
     fn is_identity(&self) -> bool {
+        false
+    }
+
+    /// Whether 𝓑 = −`Δ_s`.
+    fn is_minus_laplacian(&self) -> bool {
         false
     }
 

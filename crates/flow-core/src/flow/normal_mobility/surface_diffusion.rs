@@ -30,8 +30,8 @@ impl SurfaceDiffusion {
 }
 
 impl NormalMobility for SurfaceDiffusion {
-    fn name(&self) -> &'static str {
-        "surface-diffusion"
+    fn is_minus_laplacian(&self) -> bool {
+        true
     }
 
     fn apply(&mut self, at: &CurveFields, force: &[f64], velocity: &mut [f64]) {

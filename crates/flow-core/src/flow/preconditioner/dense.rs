@@ -23,7 +23,7 @@ impl Dense {
     /// Assembles and factorises I − γJ at the frozen state.
     ///
     /// # Errors
-    /// [`FactorisationError`] if the matrix is singular.
+    /// [`FactorisationError`] if the matrix is singular: its smallest pivot, and the row of that.
     pub fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> Result<(), FactorisationError> {
         self.factors = None; // there is room for one matrix
         let mut matrix = DMatrix::identity(self.size, self.size);
@@ -37,18 +37,23 @@ impl Dense {
             }
         }
         let factors = matrix.lu();
-        if !factors.is_invertible() {
-            return Err(FactorisationError { row: 0, pivot: 0.0 });
+        let pivots = factors.lu_internal().diagonal();
+        let row = pivots.iamin();
+        let pivot: f64 = pivots[row];
+        if pivot == 0.0 || !pivot.is_finite() {
+            return Err(FactorisationError { row, pivot });
         }
         self.factors = Some(factors);
         Ok(())
     }
 
     /// Solves with the factorisation.
+    ///
+    /// # Panics
+    /// If none is held: before [`Dense::factorise`], and after one that failed.
     pub fn apply(&self, r: &mut [f64]) {
-        let Some(factors) = &self.factors else { return };
         let mut x = DVector::from_column_slice(r);
-        factors.solve_mut(&mut x);
+        self.factors.as_ref().expect("a factorisation is held").solve_mut(&mut x);
         r.copy_from_slice(x.as_slice());
     }
 }

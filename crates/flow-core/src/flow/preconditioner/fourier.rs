@@ -60,21 +60,20 @@ impl FourierSymbol {
     }
 
     /// Inverts the blocks of the modes from `first` on, at the frozen state of `flow`.
-    pub fn set(&mut self, flow: &mut GradientFlow, gamma: f64, first: usize) {
+    pub fn set(&mut self, flow: &GradientFlow, gamma: f64, first: usize) {
         let (fields, length) = (self.fields, flow.symbol_length());
-        self.laplacian.copy_from_slice(flow.grid_and_derivative().1.minus_laplacian());
+        self.laplacian.copy_from_slice(flow.derivative().minus_laplacian());
         if self.of_velocity {
             let scale = flow.frozen().length() / (length * length);
             let symbols = self.bend.iter_mut().zip(&self.laplacian).skip(1);
             symbols.for_each(|(bend, symbol)| *bend = scale * symbol);
         }
-        let jet = flow.energy_terms().jet();
-        let mean = |a: usize, b: usize| vectors::mean(jet.second(a, b));
         let (means, block) = (&mut self.means, &mut self.block);
         for a in 0..fields {
             for b in 0..fields {
-                // A concave mean would make the block singular; a preconditioner may leave it out.
-                means[a * fields + b] = if a == b { mean(a, a).max(0.0) } else { mean(a, b) };
+                let energy = flow.energy_terms();
+                means[a * fields + b] =
+                    if a == b { energy.convex_mean(a) } else { vectors::mean(energy.jet().second(a, b)) };
             }
         }
         // Compression makes modes grow; a preconditioner may leave that out.
@@ -105,7 +104,7 @@ impl FourierSymbol {
     }
 
     /// As [`FourierSymbol::set`] for the curvature alone: its blocks are numbers, inverted in whole vector registers.
-    fn set_single(&mut self, flow: &mut GradientFlow, gamma: f64, first: usize, length: f64, tension: f64) {
+    fn set_single(&mut self, flow: &GradientFlow, gamma: f64, first: usize, length: f64, tension: f64) {
         // The copy of the symbols becomes that of the squares k²: `set` takes it anew each time.
         let (inverse, squares) = (&mut self.inverse[first..], &mut self.laplacian[first..]);
         for square in squares.iter_mut() {
@@ -113,7 +112,7 @@ impl FourierSymbol {
         }
         flow.normal_mobility().symbols(squares, inverse);
         let coefficients = [self.means[0], flow.energy_terms().implicit_stiffness()[0], tension];
-        let laplacian = &flow.grid_and_derivative().1.minus_laplacian()[first..];
+        let laplacian = &flow.derivative().minus_laplacian()[first..];
         invert_single(inverse, [laplacian, squares], length, gamma, coefficients);
     }
 

@@ -42,7 +42,7 @@ impl MetricCoupling {
             made: state.clone(),
             rest: state.clone(),
             image: state,
-            carried: densities.filter(|(_, of)| of.symbol(1.0, 1.0) == 0.0).map(|(i, _)| i + 1).collect(),
+            carried: densities.filter(|(_, of)| of.is_zero()).map(|(i, _)| i + 1).collect(),
             turning: nodes.clone(),
             velocity: nodes.clone(),
             values: nodes,
@@ -90,8 +90,8 @@ impl MetricCoupling {
         let spectra = layout.spectra_mut(motion);
         self.spectrum.copy_from_slice(&spectra[..self.modes]);
         flow.velocity_of_turning(&mut self.spectrum, &mut self.velocity);
-        let grid = flow.grid_and_derivative().0;
-        self.spectrum.copy_from_slice(&spectra[self.metric * self.modes..(self.metric + 1) * self.modes]);
+        let grid = flow.grid_mut();
+        self.spectrum.copy_from_slice(&spectra[layout.spectrum(self.metric)]);
         grid.synthesise(&self.spectrum, &mut self.values);
         // A uniform velocity does not bend; what is left of the stretch tells it.
         for ((value, turning), velocity) in self.values.iter_mut().zip(&self.turning).zip(&self.velocity) {
@@ -107,10 +107,10 @@ impl MetricCoupling {
         let layout = flow.spectral_layout();
         let spectra = layout.spectra_mut(motion);
         self.spectrum.copy_from_slice(&spectra[..self.modes]);
-        let grid = flow.grid_and_derivative().0;
+        let grid = flow.grid_mut();
         grid.synthesise(&self.spectrum, &mut self.velocity);
         multiply_into(&mut self.values, &self.turning, &self.velocity);
-        let stretch = &mut spectra[self.metric * self.modes..(self.metric + 1) * self.modes];
+        let stretch = &mut spectra[layout.spectrum(self.metric)];
         grid.transform(&self.values, stretch);
         let mean = stretch[0].re;
         flow.turning_of_velocity(&self.spectrum, &mut spectra[..self.modes]);

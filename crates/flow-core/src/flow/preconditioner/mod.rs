@@ -65,7 +65,7 @@ impl Preconditioner {
     #[must_use]
     pub fn new(kind: LinearSolver, flow: &mut GradientFlow) -> Self {
         let layout = flow.layout();
-        let modes = flow.grid_and_derivative().0.modes();
+        let modes = flow.spectral_layout().modes();
         let inverse = match kind {
             LinearSolver::Auto | LinearSolver::Fourier => {
                 FieldInverse::Fourier(FourierSymbol::new(layout, modes))

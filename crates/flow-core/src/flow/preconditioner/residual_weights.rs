@@ -30,21 +30,24 @@ impl ResidualWeights {
     }
 
     /// Takes the symbols at the frozen state of `flow`, without the variable coefficients.
-    pub fn set(&mut self, flow: &mut GradientFlow, gamma: f64) {
+    pub fn set(&mut self, flow: &GradientFlow, gamma: f64) {
         let layout = flow.spectral_layout();
+        self.any = false;
         let equidistant = flow.is_equidistant();
         for place in 0..flow.layout().state_fields() {
             // The metric moves as stiffly as the curvature.
             let field = if Some(place) == flow.layout().metric() { 0 } else { place };
+            let entries = layout.field(place);
             if flow.energy_terms().implicit_stiffness()[field] == 0.0 {
+                // It may have had one before: the weights are those of this state, whatever came before.
+                self.inverses[entries.clone()].fill(1.0);
+                self.weights[entries].fill(1.0);
                 continue;
             }
             self.any = true;
-            for (mode, stiffness) in self.stiffness.iter_mut().enumerate() {
-                let laplacian = flow.grid_and_derivative().1.minus_laplacian()[mode];
-                *stiffness = gamma * diagonal_symbol(flow, field, laplacian, 0.0);
+            for (stiffness, laplacian) in self.stiffness.iter_mut().zip(flow.derivative().minus_laplacian()) {
+                *stiffness = gamma * diagonal_symbol(flow, field, *laplacian, 0.0);
             }
-            let entries = layout.field(place);
             let (inverses, _) = self.inverses[entries.clone()].as_chunks_mut::<2>();
             let (weights, _) = self.weights[entries].as_chunks_mut::<2>();
             // A loop of its own, so that the roots are taken in whole vector registers.

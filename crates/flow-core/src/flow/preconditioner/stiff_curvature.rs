@@ -9,7 +9,6 @@ use super::super::gradient_flow::GradientFlow;
 use super::banded::{self, Banded};
 use super::fourier::diagonal_symbol;
 use crate::geometry::Complex64;
-use crate::geometry::vectors::mean;
 
 /// How the curvature settles.
 #[derive(Debug)]
@@ -23,9 +22,9 @@ pub enum StiffCurvature {
 }
 
 impl StiffCurvature {
-    /// What settles the curvature of `flow`.
+    /// What settles the curvature of `flow`, whatever its state is.
     pub fn new(flow: &GradientFlow) -> Self {
-        if flow.energy_terms().implicit_stiffness()[0] == 0.0 || flow.layout().metric().is_some() {
+        if !flow.energy_terms().may_be_stiff(0) || flow.layout().metric().is_some() {
             Self::No
         } else if flow.is_equidistant() {
             Self::Symbol
@@ -36,17 +35,19 @@ impl StiffCurvature {
     }
 
     /// Overwrites the residual `r` of a stage with γ by the change of the curvature that takes back its stiff part, r γσ/(1 + γσ)²
-    /// with σ at the linearisation of `flow`, and of nothing else; false if that does not settle it.
+    /// with σ at the linearisation of `flow`, and of nothing else; false if that does not settle it, as where its slopes cost nothing on the mean.
     pub fn settle(&mut self, flow: &mut GradientFlow, gamma: f64, r: &mut [f64]) -> bool {
+        if flow.energy_terms().implicit_stiffness()[0] == 0.0 {
+            return false;
+        }
         let layout = flow.spectral_layout();
         let turning = &mut layout.spectra_mut(r)[..layout.modes()];
         match self {
             Self::No => return false,
             Self::Symbol => {
-                let second = mean(flow.energy_terms().jet().second(0, 0)).max(0.0);
-                for (mode, value) in turning.iter_mut().enumerate() {
-                    let laplacian = flow.grid_and_derivative().1.minus_laplacian()[mode];
-                    let stiffness = gamma * diagonal_symbol(flow, 0, laplacian, second);
+                let second = flow.energy_terms().convex_mean(0);
+                for (value, laplacian) in turning.iter_mut().zip(flow.derivative().minus_laplacian()) {
+                    let stiffness = gamma * diagonal_symbol(flow, 0, *laplacian, second);
                     *value *= stiffness / ((1.0 + stiffness) * (1.0 + stiffness));
                 }
             }

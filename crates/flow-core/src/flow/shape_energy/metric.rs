@@ -52,9 +52,8 @@ impl ShapeEnergy {
     }
 
     fn add_to_metric(&mut self, field: usize, out: &mut IntrinsicGradient) {
-        let modes = self.grid.modes();
         self.grid.transform(&self.values, &mut self.spectrum);
-        let by_metric = &mut out.spectra[field * modes..(field + 1) * modes];
+        let by_metric = &mut out.spectra[self.layout.spectrum(field)];
         by_metric.iter_mut().zip(&self.spectrum).for_each(|(sum, value)| *sum += value);
     }
 }

@@ -164,6 +164,7 @@ impl ShapeEnergy {
             *along = c[i] * by_x[i] + s[i] * by_y[i];
         }
         if order >= Order::Hessian {
+            self.held = None;
             self.frozen.shape.copy_from(&self.shape);
             for axis in 0..2 {
                 self.frozen.by_position[axis].copy_from_slice(&self.dual.position[axis]);

@@ -6,11 +6,10 @@ impl ShapeEnergy {
     /// Motion of tangents and positions under the motion `v` of the state; that of the tangent angle is in `angle`.
     pub(super) fn embed_motion(&mut self, v: &[f64]) {
         let (nodes, length) = (self.grid.nodes() as f64, self.frozen.shape.length);
-        let modes = self.grid.modes();
         self.motion.length = v[self.layout.length_index()];
         if let Some(field) = self.metric {
             // δw = (δg − w δL)/L.
-            self.spectrum.copy_from_slice(&self.layout.spectra(v)[field * modes..(field + 1) * modes]);
+            self.spectrum.copy_from_slice(&self.layout.spectra(v)[self.layout.spectrum(field)]);
             self.motion.length = self.spectrum[0].re;
             self.grid.synthesise(&self.spectrum, &mut self.motion.weight);
             for (change, weight) in self.motion.weight.iter_mut().zip(&self.frozen.shape.weight) {

@@ -21,7 +21,7 @@ pub fn exists(flow: &GradientFlow) -> bool {
 /// use.
 pub fn set(part: &mut LinearPart, flow: &mut GradientFlow) -> bool {
     let (fields, length) = (flow.layout().fields(), flow.frozen().length());
-    let modes = flow.grid_and_derivative().0.modes();
+    let modes = flow.spectral_layout().modes();
     part.clear(fields, modes);
     let tension = flow.mean_tension();
     let mut means = [[0.0; MOST_FIELDS]; MOST_FIELDS];
@@ -31,7 +31,7 @@ pub fn set(part: &mut LinearPart, flow: &mut GradientFlow) -> bool {
     }
     let (mut root, mut scale) = ([0.0; MOST_FIELDS], [1.0; MOST_FIELDS]);
     for mode in 0..modes {
-        let symbol = flow.grid_and_derivative().1.minus_laplacian()[mode];
+        let symbol = flow.derivative().minus_laplacian()[mode];
         let square = symbol / (length * length);
         for field in 0..fields {
             root[field] = mobility_symbol(flow, field, symbol, length).sqrt();

@@ -53,7 +53,7 @@ impl Simulation {
     /// On nodes that the scene fixes: counts steps that they are far from resolving.
     fn count_unresolved(&mut self) {
         if self.counters().steps.is_multiple_of(FIXED_LOOKS) {
-            let family = self.on.membrane.flow().grid_and_derivative().1.family();
+            let family = self.on.membrane.flow().derivative().family();
             let (layout, state) = (self.on.membrane.layout(), self.integration.stepper().state());
             let part = unresolved(layout, state, layout.nodes(), family);
             if part > COARSE.max(COARSE_PART * self.tolerance) {

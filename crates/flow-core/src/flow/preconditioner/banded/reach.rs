@@ -20,5 +20,5 @@ pub fn exists(flow: &GradientFlow) -> bool {
 
 /// Whether the normal mobility is that of surface diffusion, which widens the band.
 pub fn diffuses(flow: &GradientFlow) -> bool {
-    flow.normal_mobility().order() > 0
+    flow.normal_mobility().is_minus_laplacian()
 }

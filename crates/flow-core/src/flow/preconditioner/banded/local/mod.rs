@@ -16,7 +16,7 @@ use super::reach::{MOST_UNEQUAL_NODES, diffuses};
 use super::{Banded, Coefficients, Window};
 use crate::flow::gradient_flow::GradientFlow;
 use crate::geometry::Complex64;
-use crate::geometry::vectors::{mean, multiply};
+use crate::geometry::vectors::multiply;
 use crate::operators::{CyclicBanded, FactorisationError};
 
 /// More nodes make the assembled sixth-order band inaccurate, and buy nothing; and the eighth-order one of surface diffusion.
@@ -57,7 +57,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
             (None, false) => MOST_NODES,
             (None, true) => MOST_NODES_OF_SURFACE_DIFFUSION,
         };
-        let coarse = nodes.clamp(8, most);
+        let coarse = nodes.min(most);
         let window = Window::new(nodes, coarse);
         let grid = &window.grid;
         let matrix = CyclicBanded::in_blocks(coarse * F, F);
@@ -104,15 +104,14 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         [band, 1.0 + gamma * diagonal_symbol(flow, field, exact, mean)]
     }
 
-    fn set_correction(&mut self, flow: &mut GradientFlow, gamma: f64) {
+    fn set_correction(&mut self, flow: &GradientFlow, gamma: f64) {
         let (coarse, modes) = (self.window.grid.nodes(), self.window.grid.modes());
         // What slopes of a density do to the curvature is of the order of the curvature's row.
         let by_rows = flow.energy_terms().implicit_costs::<F>()[0][1..].iter().any(|cost| *cost != 0.0);
         for field in 0..F {
-            let second = flow.energy_terms().jet().second(field, field);
-            let mean = mean(second).max(0.0);
+            let mean = flow.energy_terms().convex_mean(field);
             for mode in 0..self.window.common_modes() {
-                let exact = flow.grid_and_derivative().1.minus_laplacian()[mode];
+                let exact = flow.derivative().minus_laplacian()[mode];
                 let mass = self.mass[mode];
                 let difference = symbol_of_mass(mass, coarse);
                 let [band, right] = self.diagonal_symbols(flow, field, mean, gamma, [difference, exact]);

@@ -11,7 +11,7 @@ use super::local_spacing::LocalSpacing;
 use super::reach::{MOST_UNEQUAL_NODES, diffuses};
 use super::{Banded, Coefficients, Window};
 use crate::flow::gradient_flow::GradientFlow;
-use crate::geometry::vectors::{mean, multiply, scale};
+use crate::geometry::vectors::{multiply, scale};
 use crate::geometry::{Complex64, Grading};
 use crate::operators::{CyclicBanded, FactorisationError};
 
@@ -47,7 +47,7 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
     /// For `flow`.
     pub fn new(flow: &GradientFlow) -> Self {
         let nodes = flow.layout().nodes();
-        let coarse = nodes.clamp(8, MOST_UNEQUAL_NODES);
+        let coarse = nodes.min(MOST_UNEQUAL_NODES);
         let window = Window::new(nodes, coarse);
         let grid = &window.grid;
         Self {
@@ -70,14 +70,14 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
 
     /// Roots of the ratio of the symbols with mean coefficients, by second differences, with 𝓑 = Id unless it is that of
     /// surface diffusion, to the right ones.
-    fn set_roots(&mut self, flow: &mut GradientFlow, gamma: f64) {
+    fn set_roots(&mut self, flow: &GradientFlow, gamma: f64) {
         let (nodes, modes, length) =
             (self.window.grid.nodes() as f64, self.window.grid.modes(), flow.symbol_length());
         for field in 0..F {
-            let mean = mean(flow.energy_terms().jet().second(field, field)).max(0.0);
+            let mean = flow.energy_terms().convex_mean(field);
             let stiffness = flow.energy_terms().implicit_stiffness()[field];
             for mode in 0..self.window.common_modes() {
-                let exact = flow.grid_and_derivative().1.minus_laplacian()[mode];
+                let exact = flow.derivative().minus_laplacian()[mode];
                 let difference = (2.0 * nodes * (std::f64::consts::PI * mode as f64 / nodes).sin()).powi(2);
                 let band = match field {
                     0 if !self.is_surface_diffusion => (difference / (length * length)).powi(2),
