@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use flow_core::integrator::Activity;
+use flow_core::run::scene::LinearSolver;
 use flow_core::run::{
     Counters, Limit, Observer, Progress, Quiet, Record, Rejections, Scene, Seconds, Simulation, Spending,
     WhySlow, run,
@@ -175,6 +176,34 @@ fn each_limit_has_its_cause() {
     assert_eq!(limit(|_, counters| counters.rejections.not_finite = 20), Limit::NotFinite);
     assert_eq!(limit(|_, counters| counters.rejections.solver = 20), Limit::ImplicitSolves);
     assert_eq!(limit(|_, counters| counters.krylov_iterations = 2000), Limit::ImplicitSolves);
+}
+
+#[test]
+fn adhesion_has_advice_of_its_own() {
+    let mut record = synthetic::record(3, 16, &["rho"]);
+    record.counters.rejections = Rejections::default();
+    let mut advice = |name: &str, dear: &str| {
+        let mut scene = shipped(name, "1");
+        scene.accuracy.linear_solver = LinearSolver::Auto;
+        record.resolved_scene = scene.to_toml();
+        record.energy_terms = vec![dear.to_owned()];
+        record.seconds = Seconds { right_hand_sides: 1.0, ..Seconds::default() };
+        record.seconds.evaluations.terms = vec![0.9];
+        record.counters.krylov_iterations = 0;
+        let of_the_term = WhySlow::of(&record).advice;
+        record.counters.krylov_iterations = 20 * record.counters.newton_iterations.max(1);
+        [of_the_term, WhySlow::of(&record).advice]
+    };
+    let [of_the_term, of_the_solves] = advice("adhesion", "adhesion");
+    assert!(
+        of_the_term.contains("cutoff") && of_the_solves.contains("dense"),
+        "{of_the_term}; {of_the_solves}"
+    );
+    let [of_the_term, of_the_solves] = advice("three_fold", "agents");
+    assert!(
+        of_the_term.contains("expressions") && !of_the_solves.contains("dense"),
+        "{of_the_term}; {of_the_solves}"
+    );
 }
 
 #[test]

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use flow_core::run;
+use flow_core::run::scene::Formula;
 use numpy::PyReadonlyArray1;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arrays::{Vector, vector};
@@ -98,11 +98,11 @@ impl Scene {
         curvature: PyReadonlyArray1<'py, f64>,
     ) -> PyResult<Option<(&str, Vector<'py>, Vector<'py>, Vector<'py>)>> {
         let Some(agents) = &self.core.energy.agents else { return Ok(None) };
-        let lines = run::nodal_lines(agents).map_err(|error| PyValueError::new_err(error.to_string()))?;
+        let at = |line: &Formula, value: f64| line.expression().evaluate(&[value]);
         let (density, curvature) = (density.as_slice()?, curvature.as_slice()?);
-        let preferred = density.iter().map(|&rho| lines.preferred_curvature.evaluate(&[0.0, rho])).collect();
-        let low = curvature.iter().map(|&kappa| lines.low_density.evaluate(&[kappa, 0.0])).collect();
-        let high = curvature.iter().map(|&kappa| lines.high_density.evaluate(&[kappa, 0.0])).collect();
+        let preferred = density.iter().map(|&rho| at(&agents.preferred_curvature, rho)).collect();
+        let low = curvature.iter().map(|&kappa| at(&agents.low_density, kappa)).collect();
+        let high = curvature.iter().map(|&kappa| at(&agents.high_density, kappa)).collect();
         Ok(Some((&agents.density, vector(py, preferred), vector(py, low), vector(py, high))))
     }
 }

@@ -31,6 +31,25 @@ impl Expression {
         Self { text: value.to_string(), variables: Vec::new(), nodes: vec![Node::Constant(value)] }
     }
 
+    /// The same function as one of `variables`, in which its own are found by their names.
+    /// # Panics
+    /// If a variable that occurs is not among them.
+    #[must_use]
+    pub fn over(&self, variables: &[&str]) -> Self {
+        let position = |name: &String| variables.iter().position(|known| known == name);
+        let renumbered = |node: &Node| match node {
+            Node::Variable(index) => position(&self.variables[*index]).map(Node::Variable),
+            node => Some(*node),
+        };
+        let nodes = self.nodes.iter().map(renumbered).collect::<Option<Vec<_>>>();
+        let nodes = nodes.unwrap_or_else(|| panic!("`{}` is no function of {variables:?}", self.text));
+        Self {
+            text: self.text.clone(),
+            variables: variables.iter().map(|&name| name.to_owned()).collect(),
+            nodes,
+        }
+    }
+
     /// The exact derivative by the variable at index `variable`, simplified; that of `abs` at 0 is taken as 0.
     ///
     /// Its [`text`](Self::text) is `d(…)/d(name)` around the text of `self`.
@@ -130,6 +149,25 @@ mod tests {
         assert!(!slope.depends_on(0) && slope.depends_on(1));
         assert_eq!(Expression::constant(2.5).text(), "2.5");
         assert_eq!(Expression::constant(2.5).derivative(0).unwrap().evaluate(&[]), 0.0);
+    }
+
+    #[test]
+    fn over_other_variables_a_function_is_the_one_that_its_text_says() {
+        let (own, other) = (["x", "y"], ["z", "y", "x"]);
+        for text in ["x^2 - 3*y", "exp(y)", "2.5"] {
+            let [moved, read] = [
+                Expression::parse(text, &own).unwrap().over(&other),
+                Expression::parse(text, &other).unwrap(),
+            ];
+            assert_eq!(format!("{moved:?}"), format!("{read:?}"));
+        }
+        assert_eq!(Expression::constant(2.5).over(&["x"]).derivative(0).unwrap().evaluate(&[1.0]), 0.0);
+    }
+
+    #[test]
+    #[should_panic(expected = "`x + y` is no function of [\"x\"]")]
+    fn a_function_of_two_variables_is_none_of_one() {
+        let _ = Expression::parse("x + y", &["x", "y"]).unwrap().over(&["x"]);
     }
 
     #[test]

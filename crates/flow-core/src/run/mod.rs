@@ -43,7 +43,6 @@ mod why_slow;
 pub use crate::integrator::{Counters, Rejections};
 pub use adaptation::ResolutionError;
 pub use culprit::Culprit;
-pub use energy_terms::nodal_lines;
 pub use equilibrium::Equilibrium;
 pub use evaluation::{Evaluation, EvaluationError, evaluate};
 pub use failure::Failure;

@@ -1,8 +1,7 @@
 //! The nodal lines of a record's agents as polylines, for pictures.
 
-use super::energy_terms::nodal_lines;
 use super::record::Record;
-use super::scene::Scene;
+use super::scene::{Formula, Scene};
 
 /// Points of a polyline.
 const POINTS: usize = 200;
@@ -18,17 +17,17 @@ pub fn nodal_polylines(record: &Record) -> Option<[Vec<(f64, f64)>; 3]> {
     if record.densities.first() != Some(&agents.density) {
         return None;
     }
-    let lines = nodal_lines(agents).ok()?;
     let curvature = &record.frames.last()?.curvature;
     let low = curvature.iter().copied().fold(f64::INFINITY, f64::min);
     let high = curvature.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let margin = MARGIN * (high - low);
     let along =
         |from: f64, to: f64| (0..POINTS).map(move |k| from + (to - from) * k as f64 / (POINTS - 1) as f64);
+    let at = |line: &Formula, value| line.expression().evaluate(&[value]);
     let curvatures = || along(low - margin, high + margin);
     Some([
-        along(0.0, 1.0).map(|rho| (rho, lines.preferred_curvature.evaluate(&[0.0, rho]))).collect(),
-        curvatures().map(|kappa| (lines.low_density.evaluate(&[kappa, 0.0]), kappa)).collect(),
-        curvatures().map(|kappa| (lines.high_density.evaluate(&[kappa, 0.0]), kappa)).collect(),
+        along(0.0, 1.0).map(|rho| (rho, at(&agents.preferred_curvature, rho))).collect(),
+        curvatures().map(|kappa| (at(&agents.low_density, kappa), kappa)).collect(),
+        curvatures().map(|kappa| (at(&agents.high_density, kappa), kappa)).collect(),
     ])
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::floors::least_mean_square;
-use super::scene::{Length, LengthTarget, Scene};
+use super::scene::{Length, Scene};
 use crate::geometry::vectors::dot;
 use crate::geometry::{Layout, SpectralLayout};
 use crate::operators::DerivativeFamily;
@@ -77,16 +77,16 @@ pub fn needed_nodes(layout: Layout, state: &[f64], aim: f64, family: DerivativeF
     size_above(least).max(nodes)
 }
 
-/// Nodes that the fronts of the agents need on the longest curve expected, at equal distances; zero without agents.
+/// Nodes that the sharpest fronts need on the longest curve expected, at equal distances; zero where no term makes fronts.
 pub fn fronts(scene: &Scene, initial_length: f64) -> f64 {
     let target = match &scene.energy.length {
-        Some(Length::Penalty { target: LengthTarget::Absolute(target), .. }) => *target,
-        Some(Length::Penalty { target: LengthTarget::Ratio(ratio), .. }) => ratio * initial_length,
+        Some(Length::Penalty { target, .. }) => target.length(initial_length),
         _ => initial_length,
     };
-    scene.energy.agents.as_ref().map_or(0.0, |agents| {
-        target.max(initial_length) / (NODE_DISTANCE_PER_EPSILON * agents.epsilon.min(agents.delta))
-    })
+    scene
+        .energy
+        .front_width()
+        .map_or(0.0, |width| target.max(initial_length) / (NODE_DISTANCE_PER_EPSILON * width))
 }
 
 /// Numbers 2ᵃ3ᵇ of nodes, a ≥ 3, in increasing order, whose transforms are fast.

@@ -1,7 +1,8 @@
 //! The nodal lines of the agents in the (ρ, κ) plane, as far as the states of the run reach.
 
 use super::{base64, json};
-use crate::run::{Frame, Record, Scene, nodal_lines};
+use crate::run::scene::Formula;
+use crate::run::{Frame, Record, Scene};
 
 /// Points of a line.
 const POINTS: usize = 256;
@@ -18,12 +19,12 @@ fn lines_of_the_scene(record: &Record) -> Option<String> {
     let scene = Scene::parse(&record.resolved_scene, "resolved scene").ok()?;
     let agents = scene.energy.agents.as_ref()?;
     let density = record.densities.iter().position(|name| *name == agents.density)?;
-    let lines = nodal_lines(agents).ok()?;
+    let at = |line: &Formula, value| line.expression().evaluate(&[value]);
     let rho = samples(&record.frames, |frame| &frame.density[density]);
     let kappa = samples(&record.frames, |frame| &frame.curvature);
-    let along_rho = |rho: f64| [rho, lines.preferred_curvature.evaluate(&[0.0, rho])];
-    let low = |kappa: f64| [lines.low_density.evaluate(&[kappa, 0.0]), kappa];
-    let high = |kappa: f64| [lines.high_density.evaluate(&[kappa, 0.0]), kappa];
+    let along_rho = |rho: f64| [rho, at(&agents.preferred_curvature, rho)];
+    let low = |kappa: f64| [at(&agents.low_density, kappa), kappa];
+    let high = |kappa: f64| [at(&agents.high_density, kappa), kappa];
     let line = |name: &str, points: Vec<[f64; 2]>| {
         json::object([
             ("name", json::text(name)),

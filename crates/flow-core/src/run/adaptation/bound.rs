@@ -21,7 +21,7 @@ const LEFT_OUT_OF_CROWDS: f64 = 0.1;
 /// Part of the states of `scene` that may be left unresolved, as `resolution::unresolved` measures it.
 pub fn unresolved_bound(scene: &Scene) -> f64 {
     let part = LEFT_OUT * scene.accuracy.tolerance;
-    let part = match (scene.flow.follows_solution(), scene.energy.agents.is_some()) {
+    let part = match (scene.flow.follows_solution(), scene.energy.front_width().is_some()) {
         (true, true) => part.min(MOST_LEFT_OUT_OF_FRONTS_IN_CROWDS) * LEFT_OUT_OF_CROWDS,
         (true, false) => part.min(MOST_LEFT_OUT) * LEFT_OUT_OF_CROWDS,
         (false, true) => {

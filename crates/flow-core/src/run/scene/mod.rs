@@ -4,8 +4,8 @@
 //! unknown key, so the list of allowed keys is the code itself. Nothing stops at the first mistake: every problem
 //! of a scene is reported at once, each with its key, line, value, bound and one thing to try.
 //!
-//! A new energy is one file in `energy/` and its lines in the list of `energy/table.rs`. The JSON Schema follows from the
-//! types; the class of the same name in `python/curveflow/model` is asked for by a test there.
+//! A new energy is one file in `energy/`, its two lines in `energy/mod.rs` and one in the list of `energy/table.rs`. The JSON Schema
+//! follows from the types; the class of the same name in `python/curveflow/model` is asked for by a test there.
 //!
 //! ```
 //! use flow_core::run::Scene;
@@ -52,10 +52,8 @@ pub(super) use accuracy::{FEWEST_NODES, LOOSEST, MOST_NODES, TIGHTEST};
 pub use curve::{Curve, Shape};
 pub use density::{Density, DensityMobility};
 pub use document::{MAX_SCENE_BYTES, Scene};
-pub use energy::{
-    Adhesion, Agents, Area, AreaTarget, Bending, Energy, Length, LengthTarget, Local, Membrane, Packing,
-    Regularization,
-};
+pub(super) use energy::Start;
+pub use energy::*;
 pub use error::{Bound, Fault, Place, Problem, SceneError};
 pub use flow::{Flow, NormalMobility};
 pub use formula::Formula;

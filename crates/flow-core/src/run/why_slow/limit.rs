@@ -1,6 +1,9 @@
 //! What limits a run, from its shares and counters.
 
+use super::super::energy_terms::{Initial, energy_terms};
+use super::super::own_terms::OwnTerms;
 use super::super::record::Record;
+use super::super::resolution::LEAST_NODES;
 use super::super::scene::{LinearSolver, Scene};
 use super::{Spending, WhySlow};
 use crate::flow::MetricRole;
@@ -139,7 +142,7 @@ impl Limit {
                 "check the range of its expressions, or give it more accuracy.nodes",
             ),
             Self::ImplicitSolves => (implicit_solves(why), easier_solves(record)),
-            Self::Term => dear_term(why),
+            Self::Term => dear_term(why, record),
             Self::Accuracy => (
                 format!("{}; {}", as_long_as_they_may_be(why), largest_part(why)),
                 "a larger accuracy.tolerance: `curveflow tradeoff` measures what that costs in accuracy",
@@ -180,19 +183,30 @@ fn implicit_solves(why: &WhySlow) -> String {
     )
 }
 
+/// The scene; that of a file of another version may not be readable here, and the general advice holds then.
+fn scene_of(record: &Record) -> Option<Scene> {
+    Scene::parse(&record.resolved_scene, "the scene of the result").ok()
+}
+
+/// Whether a term acts on positions.
+fn has_shape_energy(scene: &Scene) -> bool {
+    let any = Initial { length: 1.0, area: 1.0, own: OwnTerms::default() };
+    energy_terms(scene, &any, LEAST_NODES).is_ok_and(|terms| terms.iter().any(|term| term.has_shape_energy()))
+}
+
 /// What makes the linear systems of a scene easier.
 fn easier_solves(record: &Record) -> &'static str {
     let smaller = "a smaller accuracy.tolerance: shorter steps are easier to solve";
-    // The scene of a file of another version may not be readable here; the general advice holds then.
-    let Ok(scene) = Scene::parse(&record.resolved_scene, "the scene of the result") else { return smaller };
-    let positions = scene.energy.adhesion.is_some() || scene.energy.area.is_some();
+    let Some(scene) = scene_of(record) else { return smaller };
     match (scene.flow.gauge.metric(), scene.accuracy.linear_solver) {
         (MetricRole::Field, _) => {
             "a [[flow.switch]] to gauge = \"scaled-arc-length\" before the flow comes to rest"
         }
         (MetricRole::Graded, _) => "a weaker flow.grading, or gauge = \"scaled-arc-length\"",
         (_, LinearSolver::Fourier) => "accuracy.linear_solver = \"auto\"",
-        (_, LinearSolver::Auto | LinearSolver::Banded) if positions && record.nodes() <= 128 => {
+        (_, LinearSolver::Auto | LinearSolver::Banded)
+            if record.nodes() <= 128 && has_shape_energy(&scene) =>
+        {
             "accuracy.linear_solver = \"dense\": only it knows the terms that act on positions"
         }
         (MetricRole::Uniform, _) if record.nodes() > MANY_NODES => {
@@ -209,15 +223,10 @@ fn dearest_term(why: &WhySlow) -> Option<(&str, f64)> {
     terms.map(|share| (share.name.as_str(), share.share)).find(|(_, share)| *share > MOST)
 }
 
-fn dear_term(why: &WhySlow) -> (String, &'static str) {
+fn dear_term(why: &WhySlow, record: &Record) -> (String, &'static str) {
     let (term, share) = dearest_term(why).unwrap_or_default();
     let sentence =
         format!("{}; energy.{term} takes {:.0} % of the time", as_long_as_they_may_be(why), 100.0 * share);
-    let advice = match term {
-        "adhesion" => {
-            "a smaller energy.adhesion.cutoff, or fewer accuracy.nodes: pairs of nodes are what it costs"
-        }
-        _ => "shorter expressions in it, or fewer accuracy.nodes",
-    };
-    (sentence, advice)
+    let advice = scene_of(record).and_then(|scene| scene.energy.cheaper(term));
+    (sentence, advice.unwrap_or("shorter expressions in it, or fewer accuracy.nodes"))
 }

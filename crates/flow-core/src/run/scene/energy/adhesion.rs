@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::{EnergyTable, Start, Term};
+use crate::energies::{self, CutOff};
 use crate::run::scene::error::Bound;
 use crate::run::scene::formula::Formula;
 use crate::run::scene::keywords::Within;
@@ -20,8 +22,8 @@ pub struct Adhesion {
     pub cutoff: Option<f64>,
 }
 
-impl Adhesion {
-    pub(super) fn read(mut section: Section<'_>) -> Option<Self> {
+impl EnergyTable for Adhesion {
+    fn read(mut section: Section<'_>, _: &[String]) -> Option<Self> {
         let kernel = section.required("kernel", "kernel = \"10*(1 - q/0.25)*exp(-q/0.25)\"");
         let kernel = kernel.and_then(|entry| entry.formula(&["q"]));
         let cutoff = section.get("cutoff").map_or(Some(None), |entry| {
@@ -30,5 +32,15 @@ impl Adhesion {
         });
         section.finish();
         Some(Self { kernel: kernel?, cutoff: cutoff? })
+    }
+
+    fn term(&self, start: &Start<'_>) -> Term {
+        let cut_off = self.cutoff.map_or(CutOff::Automatic { length: start.length }, CutOff::At);
+        let term = energies::Adhesion::new(self.kernel.expression(), cut_off, start.nodes);
+        Ok(Box::new(term.map_err(|fault| ("energy.adhesion.kernel", fault))?))
+    }
+
+    fn cheaper(&self) -> Option<&'static str> {
+        Some("a smaller energy.adhesion.cutoff, or fewer accuracy.nodes: pairs of nodes are what it costs")
     }
 }

@@ -6,6 +6,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::known::known_density;
+use super::{EnergyTable, Start, Term};
+use crate::energies::{self, NodalLines};
 use crate::run::scene::error::Bound;
 use crate::run::scene::formula::Formula;
 use crate::run::scene::keywords::Within;
@@ -30,8 +32,8 @@ pub struct Agents {
     pub high_density: Formula,
 }
 
-impl Agents {
-    pub(super) fn read(mut section: Section<'_>, densities: &[String]) -> Option<Self> {
+impl EnergyTable for Agents {
+    fn read(mut section: Section<'_>, densities: &[String]) -> Option<Self> {
         let density = section.required("density", "density = \"protein\"");
         let density = density.and_then(|entry| known_density(&entry, densities));
         let epsilon = section.required("epsilon", "epsilon = 0.05");
@@ -53,5 +55,21 @@ impl Agents {
             low_density: low?,
             high_density: high?,
         })
+    }
+
+    fn term(&self, start: &Start<'_>) -> Term {
+        let line = |formula: &Formula| formula.expression().over(&["kappa", "rho"]);
+        let lines = NodalLines {
+            preferred_curvature: line(&self.preferred_curvature),
+            low_density: line(&self.low_density),
+            high_density: line(&self.high_density),
+        };
+        let density = start.density(&self.density);
+        let term = energies::Agents::new(density, self.epsilon, self.delta, &lines, start.nodes);
+        Ok(Box::new(term.map_err(|fault| ("energy.agents", fault))?))
+    }
+
+    fn front_width(&self) -> Option<f64> {
+        Some(self.epsilon.min(self.delta))
     }
 }

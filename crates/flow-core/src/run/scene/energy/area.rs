@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::{EnergyTable, Start, Term};
+use crate::energies;
 use crate::run::scene::error::{Bound, Fault};
 use crate::run::scene::keywords::Within;
 use crate::run::scene::section::Section;
@@ -46,8 +48,18 @@ pub enum AreaTarget {
     ),
 }
 
-impl Area {
-    pub(super) fn read(mut section: Section<'_>) -> Option<Self> {
+impl AreaTarget {
+    /// A* itself, if the curve encloses the area `initial` at the start.
+    fn area(self, initial: f64) -> f64 {
+        match self {
+            Self::Absolute(target) => target,
+            Self::Ratio(ratio) => ratio * initial,
+        }
+    }
+}
+
+impl EnergyTable for Area {
+    fn read(mut section: Section<'_>, _: &[String]) -> Option<Self> {
         let of_penalty = ["penalty", "target", "target_ratio"];
         if !section.has("pressure") && of_penalty.iter().any(|key| section.has(key)) {
             return Self::read_penalty(section);
@@ -65,6 +77,17 @@ impl Area {
         Some(Self::Pressure { pressure: pressure? })
     }
 
+    fn term(&self, start: &Start<'_>) -> Term {
+        Ok(Box::new(match self {
+            Self::Pressure { pressure } => energies::Area::Pressure(*pressure),
+            Self::Penalty { penalty, target } => {
+                energies::Area::Penalty { penalty: *penalty, target: target.area(start.area) }
+            }
+        }))
+    }
+}
+
+impl Area {
     fn read_penalty(mut section: Section<'_>) -> Option<Self> {
         let penalty =
             section.required("penalty", "penalty = 10.0 with target_ratio = 1.0, or pressure = 1.0");

@@ -4,6 +4,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::known::known_density;
+use super::{EnergyTable, Start, Term};
+use crate::energies;
 use crate::run::scene::entry::Entry;
 use crate::run::scene::error::{Bound, Fault};
 use crate::run::scene::formula::Formula;
@@ -24,8 +26,8 @@ pub struct Bending {
     pub density: Option<String>,
 }
 
-impl Bending {
-    pub(super) fn read(mut section: Section<'_>, densities: &[String]) -> Option<Self> {
+impl EnergyTable for Bending {
+    fn read(mut section: Section<'_>, densities: &[String]) -> Option<Self> {
         let rigidity = section.required("rigidity", "rigidity = 1.0");
         let rigidity = rigidity.and_then(|entry| entry.number(Bound::AtLeast(0.0), "try rigidity = 1.0"));
         let preferred = section.get("preferred_curvature");
@@ -45,6 +47,18 @@ impl Bending {
         };
         section.finish();
         Some(Self { rigidity: rigidity?, preferred_curvature: preferred?, density: density? })
+    }
+
+    fn term(&self, start: &Start<'_>) -> Term {
+        let Some(preferred) = self.preferred_curvature.as_ref().map(Formula::expression) else {
+            return Ok(Box::new(energies::Bending::new(self.rigidity)));
+        };
+        let Some(density) = self.density.as_ref().filter(|_| preferred.depends_on(0)) else {
+            return Ok(Box::new(energies::Bending::around(self.rigidity, preferred.evaluate(&[0.0]))));
+        };
+        let density = start.density(density);
+        let term = energies::Bending::around_function(self.rigidity, preferred, density, start.nodes);
+        Ok(Box::new(term.map_err(|fault| ("energy.bending.preferred_curvature", fault))?))
     }
 }
 

@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::{EnergyTable, Start, Term};
+use crate::energies;
 use crate::run::scene::error::{Bound, Fault};
 use crate::run::scene::keywords::Within;
 use crate::run::scene::section::Section;
@@ -47,8 +49,18 @@ pub enum LengthTarget {
     ),
 }
 
-impl Length {
-    pub(super) fn read(mut section: Section<'_>) -> Option<Self> {
+impl LengthTarget {
+    /// L* itself, if the curve has the length `initial` at the start.
+    pub(in crate::run) fn length(self, initial: f64) -> f64 {
+        match self {
+            Self::Absolute(target) => target,
+            Self::Ratio(ratio) => ratio * initial,
+        }
+    }
+}
+
+impl EnergyTable for Length {
+    fn read(mut section: Section<'_>, _: &[String]) -> Option<Self> {
         if !section.has("tension") {
             return Self::read_penalty(section);
         }
@@ -64,6 +76,17 @@ impl Length {
         Some(Self::Tension { tension: tension? })
     }
 
+    fn term(&self, start: &Start<'_>) -> Term {
+        Ok(Box::new(match self {
+            Self::Tension { tension } => energies::Length::Tension(*tension),
+            Self::Penalty { penalty, target } => {
+                energies::Length::Penalty { penalty: *penalty, target: target.length(start.length) }
+            }
+        }))
+    }
+}
+
+impl Length {
     fn read_penalty(mut section: Section<'_>) -> Option<Self> {
         let penalty = section.required("penalty", "penalty = 3.0 with target_ratio = 1.0, or tension = 1.0");
         let penalty = penalty.and_then(|entry| entry.number(Bound::AtLeast(0.0), "try penalty = 3.0"));

@@ -4,6 +4,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::known::known_density;
+use super::{EnergyTable, Start, Term};
+use crate::energies;
 use crate::run::scene::error::Bound;
 use crate::run::scene::keywords::Within;
 use crate::run::scene::section::Section;
@@ -18,13 +20,17 @@ pub struct Membrane {
     pub epsilon: f64,
 }
 
-impl Membrane {
-    pub(super) fn read(mut section: Section<'_>, densities: &[String]) -> Option<Self> {
+impl EnergyTable for Membrane {
+    fn read(mut section: Section<'_>, densities: &[String]) -> Option<Self> {
         let density = section.required("density", "density = \"membrane\"");
         let density = density.and_then(|entry| known_density(&entry, densities));
         let epsilon = section.required("epsilon", "epsilon = 0.01");
         let epsilon = epsilon.and_then(|entry| entry.number(Bound::Positive, "try epsilon = 0.01"));
         section.finish();
         Some(Self { density: density?, epsilon: epsilon? })
+    }
+
+    fn term(&self, start: &Start<'_>) -> Term {
+        Ok(Box::new(energies::Membrane::new(start.density(&self.density), self.epsilon)))
     }
 }

@@ -4,6 +4,8 @@ use nalgebra::DMatrix;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::{EnergyTable, Start, Term};
+use crate::energies;
 use crate::run::scene::entry::Entry;
 use crate::run::scene::error::{Bound, Fault};
 use crate::run::scene::keywords::Within;
@@ -19,14 +21,18 @@ pub struct Packing {
     pub epsilon: f64,
 }
 
-impl Packing {
-    pub(super) fn read(mut section: Section<'_>, densities: &[String]) -> Option<Self> {
+impl EnergyTable for Packing {
+    fn read(mut section: Section<'_>, densities: &[String]) -> Option<Self> {
         let matrix = section.required("matrix", "matrix = [[1.0, 0.5], [0.5, 1.0]], a row for each density");
         let matrix = matrix.and_then(|entry| matrix_of(&entry, densities.len()));
         let epsilon = section.required("epsilon", "epsilon = 0.1");
         let epsilon = epsilon.and_then(|entry| entry.number(Bound::Positive, "try epsilon = 0.1"));
         section.finish();
         Some(Self { matrix: matrix?, epsilon: epsilon? })
+    }
+
+    fn term(&self, start: &Start<'_>) -> Term {
+        Ok(Box::new(energies::Packing::new(&self.matrix, self.epsilon, start.nodes)))
     }
 }
 
