@@ -6,7 +6,7 @@ Integrals are over the arc length, kappa is the curvature, Gamma the curve, |Gam
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar, TypeAlias
+from typing import ClassVar, TypeAlias, get_args
 
 from .table import Formula, Rows, Table
 
@@ -143,14 +143,4 @@ EnergyTerm: TypeAlias = (
 )
 """Any term of the energy."""
 
-TERMS: tuple[type[EnergyTerm], ...] = (
-    Bending,
-    Regularization,
-    Length,
-    Area,
-    Adhesion,
-    Agents,
-    Membrane,
-    Packing,
-    Local,
-)
+TERMS: tuple[type[EnergyTerm], ...] = get_args(EnergyTerm)

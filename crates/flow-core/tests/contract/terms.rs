@@ -13,29 +13,6 @@ use flow_core::operators::{Derivative, DerivativeFamily};
 
 use crate::mobilities::{Density, Normal};
 
-/// A term, or all of them together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Term {
-    Bending,
-    BendingAround,
-    BendingOfDensity,
-    Regularization,
-    Tension,
-    Penalty,
-    Pressure,
-    AreaPenalty,
-    Adhesion,
-    ShortAdhesion,
-    Membrane,
-    Packing,
-    Agents,
-    LocalOfCurvature,
-    Local,
-    LocalWithSlopes,
-    /// All terms; two densities, with the agents on the second.
-    Everything,
-}
-
 /// Widths ε and δ of the agents, and the target of the length penalty.
 pub const EPSILON: f64 = 0.05;
 pub const DELTA: f64 = 0.2;
@@ -48,117 +25,112 @@ const WITH_SLOPES: &str =
 /// Every variable of two densities meets another one.
 const OF_TWO_DENSITIES: &str = "0.3*kappa^2*protein*lipid + 0.1*kappa_sigma^2*(1 + lipid^2) + 0.2*protein_sigma*lipid_sigma + lipid^3*kappa_sigma*protein_sigma";
 
-impl Term {
-    /// Every term.
-    pub const ALL: [Self; 17] = [
-        Self::Bending,
-        Self::BendingAround,
-        Self::BendingOfDensity,
-        Self::Regularization,
-        Self::Tension,
-        Self::Penalty,
-        Self::Pressure,
-        Self::AreaPenalty,
-        Self::Adhesion,
-        Self::ShortAdhesion,
-        Self::Membrane,
-        Self::Packing,
-        Self::Agents,
-        Self::LocalOfCurvature,
-        Self::Local,
-        Self::LocalWithSlopes,
-        Self::Everything,
-    ];
-
-    /// Densities of the states that it is tested on.
-    pub fn densities(self) -> usize {
-        match self {
-            Self::Bending
-            | Self::BendingAround
-            | Self::Tension
-            | Self::Pressure
-            | Self::AreaPenalty
-            | Self::Adhesion
-            | Self::LocalOfCurvature => 0,
-            Self::Packing | Self::Everything => 2,
-            _ => 1,
+/// Defines [`Term`] by a table: a name, the densities of the states that the term is tested on, and the term.
+macro_rules! terms {
+    ($($Name:ident, $densities:literal, |$layout:pat_param| $build:expr;)*) => {
+        /// A term, or all of them together.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Term {
+            $($Name,)*
+            /// All others, with two densities: agents, and what else has one density, act on the second, but the membrane on the first.
+            Everything,
         }
-    }
 
-    /// The term for states of `layout`.
-    pub fn build(self, layout: Layout) -> Vec<Box<dyn EnergyTerm>> {
-        match self {
-            Self::Bending => vec![Box::new(Bending::new(0.7))],
-            Self::BendingAround => vec![Box::new(Bending::around(0.7, 0.4))],
-            Self::BendingOfDensity => vec![Box::new(bending_of_density(0, layout.nodes()))],
-            Self::Regularization => vec![Box::new(Regularization::new(DELTA))],
-            Self::Tension => vec![Box::new(Length::Tension(0.6))],
-            Self::Penalty => vec![Box::new(Length::Penalty { penalty: PENALTY, target: TARGET })],
-            Self::Pressure => vec![Box::new(Area::Pressure(0.8))],
-            Self::AreaPenalty => vec![Box::new(Area::Penalty { penalty: 2.0, target: 2.5 })],
-            Self::Adhesion => vec![Box::new(adhesion(CutOff::Automatic { length: 6.0 }, layout.nodes()))],
-            Self::ShortAdhesion => vec![Box::new(adhesion(CutOff::At(SHORT), layout.nodes()))],
-            Self::Membrane => vec![Box::new(Membrane::new(0, 0.3))],
-            Self::Packing => vec![Box::new(packing(layout.nodes()))],
-            Self::Agents => vec![Box::new(agents(0, layout.nodes()))],
-            Self::LocalOfCurvature => {
-                vec![Box::new(local("0.2*kappa^4 + exp(0.1*kappa)", &[], layout.nodes()))]
+        impl Term {
+            /// Every term.
+            pub const ALL: [Self; [$($densities),*].len() + 1] = [$(Self::$Name,)* Self::Everything];
+
+            /// Densities of the states that it is tested on.
+            pub fn densities(self) -> usize {
+                match self {
+                    $(Self::$Name => $densities,)*
+                    Self::Everything => 2,
+                }
             }
-            Self::Local => vec![Box::new(local(WITHOUT_SLOPES, &["protein"], layout.nodes()))],
-            Self::LocalWithSlopes => vec![Box::new(local(WITH_SLOPES, &["protein"], layout.nodes()))],
-            Self::Everything => {
-                let mut single = Self::ALL.to_vec();
-                single.retain(|term| *term != Self::Everything && term.densities() == 0);
-                single.extend([Self::Penalty, Self::Regularization, Self::Packing, Self::Membrane]);
-                let mut all: Vec<_> = single.iter().flat_map(|term| term.build(layout)).collect();
-                all.push(Box::new(bending_of_density(1, layout.nodes())));
-                all.push(Box::new(agents(1, layout.nodes())));
-                all.push(Box::new(local(OF_TWO_DENSITIES, &["lipid", "protein"], layout.nodes())));
-                all
+
+            /// The term for states of `layout`.
+            pub fn build(self, layout: Layout) -> Vec<Box<dyn EnergyTerm>> {
+                match self {
+                    $(Self::$Name => {
+                        let $layout = layout;
+                        vec![Box::new($build)]
+                    })*
+                    Self::Everything => {
+                        let others = Self::ALL.into_iter().filter(|term| *term != Self::Everything);
+                        others.flat_map(|term| term.build(layout)).collect()
+                    }
+                }
             }
         }
-    }
+    };
+}
+
+terms! {
+    Bending, 0, |_| Bending::new(0.7);
+    BendingAround, 0, |_| Bending::around(0.7, 0.4);
+    BendingOfDensity, 1, |layout| bending_of_density(layout);
+    Regularization, 1, |_| Regularization::new(DELTA);
+    Tension, 0, |_| Length::Tension(0.6);
+    Penalty, 1, |_| Length::Penalty { penalty: PENALTY, target: TARGET };
+    Pressure, 0, |_| Area::Pressure(0.8);
+    AreaPenalty, 0, |_| Area::Penalty { penalty: 2.0, target: 2.5 };
+    Adhesion, 0, |layout| adhesion(CutOff::Automatic { length: 6.0 }, layout);
+    ShortAdhesion, 1, |layout| adhesion(CutOff::At(SHORT), layout);
+    Membrane, 1, |_| Membrane::new(0, 0.3);
+    Packing, 2, |layout| packing(layout);
+    Agents, 1, |layout| agents(layout);
+    LocalOfCurvature, 0, |layout| local("0.2*kappa^4 + exp(0.1*kappa)", layout);
+    Local, 1, |layout| local(WITHOUT_SLOPES, layout);
+    LocalWithSlopes, 1, |layout| local(WITH_SLOPES, layout);
+    LocalOfTwoDensities, 2, |layout| local(OF_TWO_DENSITIES, layout);
 }
 
 /// Cut-off of [`Term::ShortAdhesion`], across which the kernel is smooth enough for differences.
 const SHORT: f64 = 0.8;
 
 /// A kernel with a core and a well; at [`SHORT`] it has fallen below 1e-18.
-fn adhesion(cut_off: CutOff, nodes: usize) -> Adhesion {
+fn adhesion(cut_off: CutOff, layout: Layout) -> Adhesion {
     let text = match cut_off {
         CutOff::At(_) => "0.5*(1 - q/0.015)*exp(-q/0.015)",
         CutOff::Automatic { .. } => "0.5*(1 - q/0.25)*exp(-q/0.25)",
     };
     let kernel = Expression::parse(text, &["q"]).expect("a formula");
-    Adhesion::new(&kernel, cut_off, nodes).expect("short derivatives")
+    Adhesion::new(&kernel, cut_off, layout.nodes()).expect("short derivatives")
 }
 
-fn bending_of_density(density: usize, nodes: usize) -> Bending {
+/// The density that terms of one density act on.
+fn last(layout: Layout) -> usize {
+    layout.densities() - 1
+}
+
+fn bending_of_density(layout: Layout) -> Bending {
     let preferred = Expression::parse("1.3 - 2*rho + 0.4*rho^3", &["rho"]).expect("a formula");
-    Bending::around_function(0.9, &preferred, density, nodes).expect("short derivatives")
+    Bending::around_function(0.9, &preferred, last(layout), layout.nodes()).expect("short derivatives")
 }
 
-fn packing(nodes: usize) -> Packing {
-    Packing::new(&[vec![1.4, 0.3], vec![0.3, 0.9]], 0.2, nodes)
+fn packing(layout: Layout) -> Packing {
+    Packing::new(&[vec![1.4, 0.3], vec![0.3, 0.9]], 0.2, layout.nodes())
 }
 
 /// The agents of `scenes/three_fold.toml`.
-fn agents(density: usize, nodes: usize) -> Agents {
+fn agents(layout: Layout) -> Agents {
     let parse = |text| Expression::parse(text, &["kappa", "rho"]).expect("a formula");
     let lines = NodalLines {
         preferred_curvature: parse("1.3 - 2.0/0.76*(rho - 0.19)"),
         low_density: parse("0.05 + 0.16*exp(-(kappa - 1.0)^2*ln(0.16/0.14)/0.09)"),
         high_density: parse("0.80 + 0.18*exp(-(kappa + 0.3)^2*ln(0.18/0.15)/0.16)"),
     };
-    Agents::new(density, EPSILON, DELTA, &lines, nodes).expect("short derivatives")
+    Agents::new(last(layout), EPSILON, DELTA, &lines, layout.nodes()).expect("short derivatives")
 }
 
-fn local(text: &str, densities: &[&str], nodes: usize) -> Local {
-    let names: Vec<&str> = std::iter::once("kappa").chain(densities.iter().copied()).collect();
+/// A density is called `protein`, the first of two `lipid`.
+fn local(text: &str, layout: Layout) -> Local {
+    let densities = ["lipid", "protein"].into_iter().skip(2 - layout.densities());
+    let names: Vec<&str> = std::iter::once("kappa").chain(densities).collect();
     let slopes: Vec<String> = names.iter().map(|name| format!("{name}_sigma")).collect();
     let variables: Vec<&str> = names.iter().copied().chain(slopes.iter().map(String::as_str)).collect();
     let expression = Expression::parse(text, &variables).expect("a formula");
-    Local::new(&expression, names.len(), nodes).expect("short derivatives")
+    Local::new(&expression, names.len(), layout.nodes()).expect("short derivatives")
 }
 
 /// The flow of `terms` under the mobilities, on uniform nodes.
