@@ -3,8 +3,9 @@
 
 use std::cmp::Ordering;
 
+use super::differentiated::Differentiated;
 use super::{EnergyTerm, Fields, Jet, Order, TermFault};
-use crate::expression::{Expression, ExpressionError, Program};
+use crate::expression::{Expression, ExpressionError};
 
 /// The nodal functions of the potentials, as expressions of one variable each.
 #[derive(Clone, Debug)]
@@ -23,14 +24,11 @@ pub struct Agents {
     field: usize,
     epsilon: f64,
     delta: f64,
-    gradient_lines: Program,
-    hessian_lines: Program,
+    functions: Differentiated,
     /// κ₀, κ₀′, ρ₋, ρ₋′, ρ₊, ρ₊′ and then κ₀″, ρ₋″, ρ₊″ at the nodes.
-    lines: Vec<f64>,
-    scratch: Vec<f64>,
+    lines: [Vec<f64>; LINES],
 }
 
-const FIRST_ORDER_LINES: usize = 6;
 const LINES: usize = 9;
 
 impl Agents {
@@ -47,25 +45,14 @@ impl Agents {
         lines: &NodalLines,
         nodes: usize,
     ) -> Result<Self, ExpressionError> {
-        let by_rho = |e: &Expression| e.derivative(1);
-        let by_kappa = |e: &Expression| e.derivative(0);
-        let (preferred, low, high) = (&lines.preferred_curvature, &lines.low_density, &lines.high_density);
-        let (preferred_1, low_1, high_1) = (by_rho(preferred)?, by_kappa(low)?, by_kappa(high)?);
-        let (preferred_2, low_2, high_2) = (by_rho(&preferred_1)?, by_kappa(&low_1)?, by_kappa(&high_1)?);
-        let first_order = [preferred, &preferred_1, low, &low_1, high, &high_1];
-        let gradient_lines = Program::compile(&first_order);
-        let mut all = first_order.to_vec();
-        all.extend([&preferred_2, &low_2, &high_2]);
-        let hessian_lines = Program::compile(&all);
-        let scratch = gradient_lines.scratch_len().max(hessian_lines.scratch_len());
+        let NodalLines { preferred_curvature, low_density, high_density } = lines;
+        let functions = [(preferred_curvature, 1), (low_density, 0), (high_density, 0)];
         Ok(Self {
             field: 1 + density,
             epsilon,
             delta,
-            gradient_lines,
-            hessian_lines,
-            lines: vec![0.0; LINES * nodes],
-            scratch: vec![0.0; scratch],
+            functions: Differentiated::along(&functions)?,
+            lines: std::array::from_fn(|_| vec![0.0; nodes]),
         })
     }
 }
@@ -88,8 +75,7 @@ impl EnergyTerm for Agents {
     }
 
     fn fault(&self, fields: Fields<'_>) -> Option<TermFault> {
-        let nodes = fields.nodes();
-        let (low, high) = (&self.lines[2 * nodes..3 * nodes], &self.lines[4 * nodes..5 * nodes]);
+        let [_, _, low, _, high, ..] = &self.lines;
         let node =
             low.iter().zip(high).position(|(low, high)| low.partial_cmp(high) != Some(Ordering::Less))?;
         let curvature = fields.get(0)[node];
@@ -97,23 +83,12 @@ impl EnergyTerm for Agents {
     }
 
     fn add_density(&mut self, fields: Fields<'_>, jet: &mut Jet) {
-        let nodes = fields.nodes();
         let (kappa, rho) = (fields.get(0), fields.get(self.field));
-        if jet.order() < Order::Hessian {
-            let mut lines = self.lines.chunks_exact_mut(nodes);
-            let mut outputs: [&mut [f64]; FIRST_ORDER_LINES] =
-                std::array::from_fn(|_| lines.next().unwrap_or_default());
-            self.gradient_lines.evaluate(&[kappa, rho], &mut outputs, &mut self.scratch);
-            let lines: [&[f64]; FIRST_ORDER_LINES] =
-                std::array::from_fn(|k| &self.lines[k * nodes..(k + 1) * nodes]);
-            add_gradient(self.field, [self.epsilon, self.delta], kappa, rho, lines, jet);
-        } else {
-            let mut lines = self.lines.chunks_exact_mut(nodes);
-            let mut outputs: [&mut [f64]; LINES] = std::array::from_fn(|_| lines.next().unwrap_or_default());
-            self.hessian_lines.evaluate(&[kappa, rho], &mut outputs, &mut self.scratch);
-            let lines: [&[f64]; LINES] = std::array::from_fn(|k| &self.lines[k * nodes..(k + 1) * nodes]);
-            let first: [&[f64]; FIRST_ORDER_LINES] = std::array::from_fn(|k| lines[k]);
-            add_gradient(self.field, [self.epsilon, self.delta], kappa, rho, first, jet);
+        let mut outputs = self.lines.each_mut().map(Vec::as_mut_slice);
+        self.functions.evaluate(jet.order(), &[kappa, rho], &mut outputs);
+        let lines = self.lines.each_ref().map(Vec::as_slice);
+        add_gradient(self.field, [self.epsilon, self.delta], kappa, rho, lines, jet);
+        if jet.order() >= Order::Hessian {
             add_hessian(self.field, [self.epsilon, self.delta], kappa, rho, lines, jet);
         }
     }
@@ -125,7 +100,7 @@ fn add_gradient(
     [epsilon, delta]: [f64; 2],
     kappa: &[f64],
     rho: &[f64],
-    [preferred, preferred_1, low, low_1, high, high_1]: [&[f64]; FIRST_ORDER_LINES],
+    [preferred, preferred_1, low, low_1, high, high_1, ..]: [&[f64]; LINES],
     jet: &mut Jet,
 ) {
     let (by_delta, by_epsilon) = (1.0 / delta, 1.0 / epsilon);

@@ -2,8 +2,9 @@
 
 use multiversion::multiversion;
 
+use super::differentiated::Differentiated;
 use super::{EnergyTerm, Fields, Jet, Order};
-use crate::expression::{Expression, ExpressionError, Program};
+use crate::expression::{Expression, ExpressionError};
 use crate::geometry::vectors::shift;
 
 /// Bending energy with constant rigidity.
@@ -17,17 +18,16 @@ pub struct Bending {
 #[derive(Clone, Debug)]
 enum Preferred {
     Constant(f64),
-    OfDensity(OfDensity),
+    OfDensity(Box<OfDensity>),
 }
 
 /// c₀(ρ) of one density.
 #[derive(Clone, Debug)]
 struct OfDensity {
     field: usize,
-    program: Program,
+    function: Differentiated,
     /// c₀, c₀′ and c₀″ at the nodes.
     values: [Vec<f64>; 3],
-    scratch: Vec<f64>,
 }
 
 impl Bending {
@@ -57,16 +57,12 @@ impl Bending {
         nodes: usize,
     ) -> Result<Self, ExpressionError> {
         assert!(preferred.arity() <= 1, "`{}` is no function of one density", preferred.text());
-        let first = preferred.derivative(0)?;
-        let second = first.derivative(0)?;
-        let program = Program::compile(&[preferred, &first, &second]);
         let preferred = OfDensity {
             field: 1 + density,
-            scratch: vec![0.0; program.scratch_len()],
-            program,
+            function: Differentiated::along(&[(preferred, 0)])?,
             values: std::array::from_fn(|_| vec![0.0; nodes]),
         };
-        Ok(Self { rigidity, preferred: Preferred::OfDensity(preferred) })
+        Ok(Self { rigidity, preferred: Preferred::OfDensity(Box::new(preferred)) })
     }
 }
 
@@ -141,7 +137,7 @@ fn add_square(b: f64, preferred: f64, kappa: &[f64], value: &mut [f64], first: &
 fn add_of_density(b: f64, preferred: &mut OfDensity, fields: Fields<'_>, jet: &mut Jet) {
     let (kappa, rho, field) = (fields.get(0), fields.get(preferred.field), preferred.field);
     let mut outputs = preferred.values.each_mut().map(Vec::as_mut_slice);
-    preferred.program.evaluate(&[rho], &mut outputs, &mut preferred.scratch);
+    preferred.function.evaluate(jet.order(), &[rho], &mut outputs);
     let [c, c_1, c_2] = &preferred.values;
     let (value, by_kappa) = jet.value_and_first_mut(0);
     for i in 0..kappa.len() {

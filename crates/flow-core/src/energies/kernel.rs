@@ -5,16 +5,15 @@ use std::f64::consts::PI;
 use multiversion::multiversion;
 
 use super::Order;
-use crate::expression::{Expression, ExpressionError, Program};
+use super::differentiated::Differentiated;
+use crate::expression::{Expression, ExpressionError};
 
 /// G(q) with its derivatives.
 #[derive(Clone, Debug)]
 pub(super) struct Kernel {
-    gradient: Program,
-    hessian: Program,
+    function: Differentiated,
     at_zero: f64,
     largest_square: f64,
-    scratch: Vec<f64>,
 }
 
 /// Distance beyond which the kernel is taken as zero.
@@ -42,16 +41,12 @@ const MOST_NODES: usize = 1 << 17;
 impl Kernel {
     /// A kernel of the variable 0.
     pub(super) fn new(kernel: &Expression, cut_off: CutOff) -> Result<Self, ExpressionError> {
-        let first = kernel.derivative(0)?;
-        let second = first.derivative(0)?;
-        let gradient = Program::compile(&[kernel, &first]);
-        let hessian = Program::compile(&[kernel, &first, &second]);
-        let scratch = vec![0.0; gradient.scratch_len().max(hessian.scratch_len())];
+        let function = Differentiated::along(&[(kernel, 0)])?;
         let largest_square = match cut_off {
             CutOff::At(distance) => distance * distance,
-            CutOff::Automatic { length } => end_of_support(kernel, &first, length * length),
+            CutOff::Automatic { length } => end_of_support(kernel, &kernel.derivative(0)?, length * length),
         };
-        Ok(Self { gradient, hessian, at_zero: kernel.evaluate(&[0.0]), largest_square, scratch })
+        Ok(Self { function, at_zero: kernel.evaluate(&[0.0]), largest_square })
     }
 
     /// Distance beyond which the kernel is zero.
@@ -68,14 +63,13 @@ impl Kernel {
     /// less than the part `error` of the sum of the moduli when the nodes move by half of that: the error of the trapezoidal rule.
     /// See `THEORY.md`, eq. (D14).
     pub(super) fn largest_spacing(&self, length: f64, error: f64) -> f64 {
-        let mut scratch = vec![0.0; self.gradient.scratch_len()];
-        let mut nodes = FEWEST_NODES;
+        let (mut function, mut nodes) = (self.function.clone(), FEWEST_NODES);
         while nodes < MOST_NODES {
             // At the nodes, and halfway between them.
             let chord = |i: usize| length / PI * (0.5 * PI * i as f64 / nodes as f64).sin();
             let squares: Vec<f64> = (0..2 * nodes).map(|i| chord(i).powi(2)).collect();
             let (mut value, mut first) = (vec![0.0; 2 * nodes], vec![0.0; 2 * nodes]);
-            self.gradient.evaluate(&[&squares], &mut [&mut value, &mut first], &mut scratch);
+            function.evaluate(Order::Gradient, &[&squares], &mut [&mut value, &mut first]);
             first.iter_mut().zip(&squares).for_each(|(first, square)| *first *= square);
             let is_exact = |values: &[f64]| {
                 let (mut moved, mut moduli) = (0.0, 0.0);
@@ -101,11 +95,8 @@ impl Kernel {
         order: Order,
         [value, first, second]: [&mut [f64]; 3],
     ) {
-        if order < Order::Hessian {
-            self.gradient.evaluate(&[squares], &mut [&mut *value, &mut *first], &mut self.scratch);
-        } else {
-            let mut outputs = [&mut *value, &mut *first, &mut *second];
-            self.hessian.evaluate(&[squares], &mut outputs, &mut self.scratch);
+        self.function.evaluate(order, &[squares], &mut [&mut *value, &mut *first, &mut *second]);
+        if order >= Order::Hessian {
             cut(squares, self.largest_square, second);
         }
         cut(squares, self.largest_square, value);

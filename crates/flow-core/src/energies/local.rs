@@ -1,7 +1,8 @@
 //! Any local energy ∫ e(κ, ρ, ∇_sκ, ∇_sρ) dσ given as an expression. See `THEORY.md`, eq. (E5).
 
+use super::differentiated::Differentiated;
 use super::{EnergyTerm, Fields, Jet, Order};
-use crate::expression::{Expression, ExpressionError, Program};
+use crate::expression::{Expression, ExpressionError};
 
 /// A local density from an expression, differentiated by the program.
 ///
@@ -42,48 +43,29 @@ impl Local {
     }
 }
 
-/// A density with its programs.
+/// A density with its derivatives.
 #[derive(Clone, Debug)]
 struct Density {
     variables: usize,
-    gradient: Program,
-    hessian: Program,
+    function: Differentiated,
     /// The density, its first derivatives and its second derivatives in the packed order of [`Jet`].
     results: Vec<f64>,
-    scratch: Vec<f64>,
 }
 
 impl Density {
     fn new(expression: &Expression, variables: usize, nodes: usize) -> Result<Self, ExpressionError> {
-        let first = (0..variables).map(|a| expression.derivative(a)).collect::<Result<Vec<_>, _>>()?;
-        let mut second = Vec::new();
-        for (a, by_a) in first.iter().enumerate() {
-            for b in 0..=a {
-                second.push(by_a.derivative(b)?);
-            }
-        }
-        let outputs: Vec<&Expression> = std::iter::once(expression).chain(&first).chain(&second).collect();
-        let gradient = Program::compile(&outputs[..=variables]);
-        let hessian = Program::compile(&outputs);
-        let scratch = gradient.scratch_len().max(hessian.scratch_len());
-        Ok(Self {
-            variables,
-            gradient,
-            hessian,
-            results: vec![0.0; outputs.len() * nodes],
-            scratch: vec![0.0; scratch],
-        })
+        let function = Differentiated::by_each(expression, variables)?;
+        Ok(Self { variables, results: vec![0.0; function.outputs() * nodes], function })
     }
 
     fn add(&mut self, fields: Fields<'_>, jet: &mut Jet) {
         let nodes = fields.nodes();
-        let program = if jet.order() < Order::Hessian { &self.gradient } else { &self.hessian };
         let inputs: [&[f64]; MOST_VARIABLES] =
             std::array::from_fn(|k| if k < self.variables { fields.get(k) } else { &[] });
         let mut chunks = self.results.chunks_exact_mut(nodes);
         let mut outputs: [&mut [f64]; MOST_OUTPUTS] =
             std::array::from_fn(|_| chunks.next().unwrap_or_default());
-        program.evaluate(&inputs[..self.variables], &mut outputs[..program.outputs()], &mut self.scratch);
+        self.function.evaluate(jet.order(), &inputs[..self.variables], &mut outputs);
         let mut results = self.results.chunks_exact(nodes);
         let mut next = |target: &mut [f64]| {
             for (target, value) in target.iter_mut().zip(results.next().unwrap_or_default()) {
