@@ -89,7 +89,8 @@ impl Row<'_> {
             self.add_three(node, weights, |node| places.velocity(node));
         } else {
             let mobility = &self.flow.density_mobilities()[field - 1];
-            let weights = mobility.three_points(node, places.nodes, length).map(|weight| gamma * weight);
+            let weights =
+                mobility.three_points(self.flow.frozen(), node, places.nodes).map(|weight| gamma * weight);
             self.add_three(node, weights, |node| places.gradient(field, node));
         }
         let [before, _] = places.neighbours(node);

@@ -30,24 +30,20 @@ impl GradientFlow {
     pub fn excess_density(&mut self, y: &[f64]) -> Result<ExcessDensity, MobilityError> {
         self.dissipation_at(y);
         let (nodes, length) = (self.layout().nodes(), self.current().length());
-        let kappa = self.current().at_nodes(0).to_vec();
+        let kappa = self.current().at_nodes(0);
         let right: Vec<f64> = kappa.iter().zip(self.normal_force()).map(|(kappa, f)| -kappa * f).collect();
-        let metric = self.current().moving_metric().cloned();
-        let (grid, derivative) = self.grid_and_derivative();
-        let mut helmholtz = CurveHelmholtz::new(derivative, nodes);
-        if let Some(metric) = &metric {
-            helmholtz.follow(metric);
-        }
-        helmholtz.set(&kappa, length)?;
+        let mut helmholtz = CurveHelmholtz::new(self.derivative(), nodes);
+        helmholtz.set(self.current().grading(), kappa, length)?;
         let (mut density, mut flux) = (vec![0.0; nodes], vec![0.0; nodes]);
         helmholtz.solve(&right, &mut density);
+        let (grid, derivative) = self.grid_and_derivative();
         let mut spectrum = vec![Complex64::default(); grid.modes()];
         grid.transform(&density, &mut spectrum);
         for (value, symbol) in spectrum.iter_mut().zip(derivative.to_flux()) {
             *value *= -symbol / length;
         }
         grid.synthesise(&spectrum, &mut flux);
-        if let Some(grading) = metric.as_ref().or(derivative.grading().map(AsRef::as_ref)) {
+        if let Some(grading) = self.current().grading() {
             multiply(&mut flux, grading.inverse_at_midpoints());
         }
         Ok(ExcessDensity { density, flux })

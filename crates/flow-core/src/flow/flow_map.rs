@@ -5,13 +5,20 @@ use std::sync::Arc;
 use bytemuck::{cast_slice, cast_slice_mut};
 
 use super::curve_fields::CurveFields;
-use super::gauge::{CoMoving, Gauge, Graded, MetricRole, Workspace};
+use super::gauge::{CoMoving, Gauge, Graded, MetricRole, ScaledArcLength, Workspace};
 use super::graded_energy::mean_product;
 use crate::geometry::vectors::{add_real_symbol, add_scaled, apply_real_symbol, multiply, multiply_into};
 use crate::geometry::{Complex64, Grading, Layout, PeriodicGrid};
 use crate::operators::{Derivative, GradedLaplacian};
 
 /// Applies A and Aᵀ on one grid in one gauge; holds all scratch.
+///
+/// # Shapes
+/// Velocities, forces and stretchings: one value per node. Gradients and rates: a spectrum for each field of the state, those of
+/// the curvature and the densities first, then that of the metric if it is a field.
+/// # Units
+/// Rates are those of K = κg and m = ρg (and g), per unit parameter and time; a velocity is a length per time, and the force on it
+/// an energy per length squared: the energy lost per normal displacement and arc length.
 #[derive(Clone, Debug)]
 pub struct FlowMap {
     work: Workspace,
@@ -32,7 +39,7 @@ impl FlowMap {
         Self::in_gauge(gauge, layout, grid, derivative)
     }
 
-    /// The flow map in `gauge`.
+    /// The flow map in `gauge`; in [`ScaledArcLength`] where a grading may be and there is none.
     ///
     /// # Panics
     /// If the metric is a field of the gauge and none of `layout`, or the other way round, if nodes are graded whose metric
@@ -49,15 +56,11 @@ impl FlowMap {
         assert_eq!(layout.metric().is_some(), role == MetricRole::Field, "the metric of {gauge:?}");
         assert!(derivative.grading().is_none() || role != MetricRole::Uniform, "graded nodes in {gauge:?}");
         assert!(derivative.grading().is_some() || role != MetricRole::Field, "no metric for {gauge:?}");
+        let equal = role == MetricRole::Graded && derivative.grading().is_none();
+        let gauge = if equal { Arc::new(ScaledArcLength) } else { gauge };
         let image = vec![Complex64::default(); grid.modes()];
         let stretching = vec![0.0; layout.nodes()];
         Self { work: Workspace::new(layout, grid, derivative), gauge, image, stretching, at_hand: false }
-    }
-
-    /// The gauge.
-    #[must_use]
-    pub fn gauge(&self) -> &Arc<dyn Gauge> {
-        &self.gauge
     }
 
     /// The derivative, for others who work on the same nodes.
@@ -122,13 +125,10 @@ impl FlowMap {
         let Workspace { grid, derivative, graded, values, spectrum, .. } = &mut self.work;
         let p = &gradient[..grid.modes()];
         let scale = -1.0 / at.length().powi(2);
-        if let Some(graded) = graded {
-            if let Some(metric) = at.moving_metric() {
-                graded.follow(metric);
-            }
-            graded.apply(p, spectrum);
+        if let Some((graded, grading)) = graded.as_mut().zip(at.grading()) {
+            graded.apply(grading, p, spectrum);
             grid.synthesise(spectrum, values);
-            multiply(values, graded.grading().inverse());
+            multiply(values, grading.inverse());
             add_scaled(force, scale, values);
             return;
         }
@@ -169,11 +169,8 @@ impl FlowMap {
         let turning = &mut rates[..grid.modes()];
         grid.transform(v, spectrum);
         let scale = 1.0 / at.length();
-        if let Some(graded) = graded {
-            if let Some(metric) = at.moving_metric() {
-                graded.follow(metric);
-            }
-            graded.apply(spectrum, &mut self.image);
+        if let Some((graded, grading)) = graded.as_mut().zip(at.grading()) {
+            graded.apply(grading, spectrum, &mut self.image);
             add_scaled(cast_slice_mut(turning), scale, cast_slice(&self.image));
         } else {
             add_real_symbol(turning, scale, spectrum, derivative.minus_laplacian());

@@ -1,7 +1,9 @@
 //! What graded nodes add to the energy: p = `e_φ` + (1/w)·(Sφ c/|Γ|² + …) with S = D₊ᵀ(1/w)D₊. See `THEORY.md`, eq. (D9).
 
+use std::sync::Arc;
+
 use crate::geometry::vectors::{add_scaled, dot, multiply};
-use crate::geometry::{Complex64, Layout, PeriodicGrid};
+use crate::geometry::{Complex64, Grading, Layout, PeriodicGrid};
 use crate::operators::{Derivative, GradedLaplacian};
 
 /// S with the images of the fields at the linearisation; holds its scratch.
@@ -9,6 +11,7 @@ use crate::operators::{Derivative, GradedLaplacian};
 pub struct GradedEnergy {
     layout: Layout,
     grid: PeriodicGrid,
+    grading: Arc<Grading>,
     laplacian: GradedLaplacian,
     image: Vec<Complex64>,
     frozen: Vec<Complex64>,
@@ -19,11 +22,11 @@ impl GradedEnergy {
     /// For states of `layout`; none if the nodes are uniform.
     #[must_use]
     pub fn of(layout: Layout, grid: &PeriodicGrid, derivative: &Derivative) -> Option<Self> {
-        let laplacian = GradedLaplacian::of(grid, derivative)?;
         Some(Self {
             layout,
             grid: grid.clone(),
-            laplacian,
+            grading: derivative.grading()?.clone(),
+            laplacian: GradedLaplacian::of(grid, derivative)?,
             image: vec![Complex64::default(); grid.modes()],
             frozen: vec![Complex64::default(); layout.fields() * grid.modes()],
             values: vec![0.0; layout.nodes()],
@@ -32,7 +35,7 @@ impl GradedEnergy {
 
     /// Spectrum of S of a field.
     pub fn image(&mut self, spectrum: &[Complex64]) -> &[Complex64] {
-        self.laplacian.apply(spectrum, &mut self.image);
+        self.laplacian.apply(&self.grading, spectrum, &mut self.image);
         &self.image
     }
 
@@ -50,7 +53,7 @@ impl GradedEnergy {
     /// p becomes `density` + p/w.
     pub fn finish(&mut self, density: &[f64], p: &mut [Complex64]) {
         self.grid.synthesise(p, &mut self.values);
-        multiply(&mut self.values, self.laplacian.grading().inverse());
+        multiply(&mut self.values, self.grading.inverse());
         add_scaled(&mut self.values, 1.0, density);
         self.grid.transform(&self.values, p);
     }

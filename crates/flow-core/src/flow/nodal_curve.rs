@@ -84,6 +84,10 @@ impl NodalCurve {
 
     /// Rates under the normal velocity `v` (F2), (F19).
     ///
+    /// # Shapes
+    /// `v`, and each field of the rates: one value per node.
+    /// # Units
+    /// `v` is a length per time; the rates are those of κ, of g and of the densities per time.
     /// # Errors
     /// [`NodalError`] if `v` does not fit the curve, or a rate overflows.
     pub fn flow_map(&mut self, v: &[f64]) -> Result<NodalRates, NodalError> {
@@ -117,21 +121,27 @@ impl NodalCurve {
 
     /// u with Hu = f, H = −`Δ_s` + κ² (O5), (O7).
     ///
+    /// # Shapes
+    /// `f` and u: one value per node.
+    /// # Units
+    /// u has the unit of `f` times length².
     /// # Errors
     /// [`NodalError`] if `f` does not fit the curve, H is singular, or what is asked for overflows.
     pub fn helmholtz(&mut self, f: &[f64]) -> Result<Vec<f64>, NodalError> {
         self.check_field("right_hand_side", f)?;
         self.check_nodes()?;
         let mut operator = CurveHelmholtz::new(&self.derivative, self.layout.nodes());
-        operator.set(self.at.at_nodes(0), self.at.length())?;
+        operator.set(self.at.grading(), self.at.at_nodes(0), self.at.length())?;
         let mut u = vec![0.0; f.len()];
         operator.solve(f, &mut u);
         check_result("the solution", &u)?;
         Ok(u)
     }
 
-    /// 𝓘f = f − κH⁻¹(κf) (F8).
+    /// 𝓘f = f − κH⁻¹(κf) (F8), in the unit of `f`.
     ///
+    /// # Shapes
+    /// `f` and 𝓘f: one value per node.
     /// # Errors
     /// [`NodalError`] if `f` does not fit the curve, H is singular, or what is asked for overflows.
     pub fn incompressible(&mut self, f: &[f64]) -> Result<Vec<f64>, NodalError> {

@@ -53,17 +53,6 @@ impl SlopeEnergy {
         }
     }
 
-    /// Energy of one term at a state.
-    pub fn energy_of(&mut self, term: &mut dyn EnergyTerm, at: &CurveFields) -> f64 {
-        if !term.has_slope_density() {
-            return 0.0;
-        }
-        self.fill(at);
-        self.jet.clear(Order::Gradient);
-        term.add_slope_density(Fields::new(self.layout.nodes(), &self.fields), &mut self.jet);
-        at.length() * self.mean_density()
-    }
-
     /// e′ with its derivatives at the state evaluated last, and the fields and slopes there.
     #[must_use]
     pub fn jet(&self) -> (&Jet, Fields<'_>) {

@@ -1,7 +1,5 @@
 //! The Helmholtz operator H = −`Δ_s` + κ² on uniform or graded nodes. See `THEORY.md`, eqs. (O5) and (O7).
 
-use std::sync::Arc;
-
 use super::cyclic_banded::CyclicBanded;
 use super::derivative::{Derivative, DerivativeFamily};
 use super::helmholtz::{Helmholtz, HelmholtzError, LEAST_CURVATURE, REFINED_FROM, check_length, check_solve};
@@ -28,33 +26,29 @@ impl CurveHelmholtz {
             None => Self::Uniform(Box::new(Helmholtz::new(derivative.family(), nodes))),
             Some(grading) => {
                 assert_eq!(grading.nodes(), nodes, "the derivative is graded on other nodes");
-                Self::Graded(Box::new(GradedHelmholtz::new(derivative.family(), grading.clone())))
+                Self::Graded(Box::new(GradedHelmholtz::new(derivative.family(), nodes)))
             }
         }
     }
 
-    /// Goes on with the metric `grading`, on as many nodes.
-    ///
-    /// # Panics
-    /// If the operator was made for uniform nodes, or the metric has another number of them.
-    pub fn follow(&mut self, grading: &Grading) {
-        match self {
-            Self::Uniform(_) => panic!("an operator on uniform nodes follows no metric"),
-            Self::Graded(operator) => Arc::make_mut(&mut operator.grading).copy_from(grading),
-        }
-    }
-
-    /// Factorises H for the nodal `curvature` on a curve of length `length`, without allocating.
+    /// Factorises H for the nodal `curvature` on a curve of length `length` whose nodes have the `grading`, none if they are uniform,
+    /// without allocating.
     ///
     /// # Errors
     /// [`HelmholtzError`] if the curvature vanishes or is not finite, the length is not positive, or the factorisation fails: no
     /// factorisation is held then.
     /// # Panics
-    /// If there is not one curvature per node.
-    pub fn set(&mut self, curvature: &[f64], length: f64) -> Result<(), HelmholtzError> {
-        match self {
-            Self::Uniform(operator) => operator.set(curvature, length),
-            Self::Graded(operator) => operator.set(curvature, length),
+    /// If there is not one curvature per node, or the operator was made for graded nodes and these are not, or the other way round.
+    pub fn set(
+        &mut self,
+        grading: Option<&Grading>,
+        curvature: &[f64],
+        length: f64,
+    ) -> Result<(), HelmholtzError> {
+        match (self, grading) {
+            (Self::Uniform(operator), None) => operator.set(curvature, length),
+            (Self::Graded(operator), Some(grading)) => operator.set(grading, curvature, length),
+            (_, grading) => panic!("H was made for other nodes than those of the grading {grading:?}"),
         }
     }
 
@@ -76,7 +70,9 @@ const WIDTH: usize = 7;
 /// (S/|Γ|² + wκ²)u = wf with S = D₊ᵀ(1/w)D₊ by staggered differences.
 #[derive(Clone, Debug)]
 pub struct GradedHelmholtz {
-    grading: Arc<Grading>,
+    /// w at the nodes and 1/w at the midpoints.
+    weight: Vec<f64>,
+    inverse_at_midpoints: Vec<f64>,
     /// Coefficients of D₊ per node distance, of the differences u(i+1+j) − u(i−j).
     stencil: &'static [f64],
     band: CyclicBanded<WIDTH>,
@@ -90,10 +86,10 @@ pub struct GradedHelmholtz {
 }
 
 impl GradedHelmholtz {
-    fn new(family: DerivativeFamily, grading: Arc<Grading>) -> Self {
-        let nodes = grading.nodes();
+    fn new(family: DerivativeFamily, nodes: usize) -> Self {
         Self {
-            grading,
+            weight: vec![1.0; nodes],
+            inverse_at_midpoints: vec![1.0; nodes],
             stencil: family.differences(),
             band: CyclicBanded::new(nodes),
             factorised: false,
@@ -104,11 +100,13 @@ impl GradedHelmholtz {
         }
     }
 
-    fn set(&mut self, curvature: &[f64], length: f64) -> Result<(), HelmholtzError> {
+    fn set(&mut self, grading: &Grading, curvature: &[f64], length: f64) -> Result<(), HelmholtzError> {
         assert_eq!(curvature.len(), self.square.len(), "H takes one curvature per node");
         self.factorised = false;
         check_length(length)?;
-        let weight = self.grading.weight();
+        self.weight.copy_from_slice(grading.weight());
+        self.inverse_at_midpoints.copy_from_slice(grading.inverse_at_midpoints());
+        let weight = &self.weight;
         let value = length * length * mean_of_triple_product(weight, curvature, curvature);
         if !(value >= LEAST_CURVATURE && value.is_finite()) {
             return Err(HelmholtzError::NoCurvature { value });
@@ -119,7 +117,7 @@ impl GradedHelmholtz {
         let nodes = self.square.len();
         self.scale = (nodes as f64 / length).powi(2);
         self.band.clear();
-        let inverse = self.grading.inverse_at_midpoints();
+        let inverse = &self.inverse_at_midpoints;
         let reach = self.stencil.len() as isize;
         // Weight in D₊ of the node `offset` nodes after the one before the midpoint.
         let of = |offset: isize| {
@@ -144,7 +142,7 @@ impl GradedHelmholtz {
 
     fn solve(&mut self, f: &[f64], u: &mut [f64]) {
         check_solve(self.factorised, self.square.len(), f, u);
-        for ((u, f), weight) in u.iter_mut().zip(f).zip(self.grading.weight()) {
+        for ((u, f), weight) in u.iter_mut().zip(f).zip(&self.weight) {
             *u = weight * f;
         }
         self.band.solve(u);
@@ -164,7 +162,7 @@ impl GradedHelmholtz {
             let difference =
                 |(j, d): (usize, &f64)| d * (u[(i + 1 + j) % nodes] - u[(i + nodes - j) % nodes]);
             let slope: f64 = self.stencil.iter().enumerate().map(difference).sum();
-            self.slope[i] = self.scale * self.grading.inverse_at_midpoints()[i] * slope;
+            self.slope[i] = self.scale * self.inverse_at_midpoints[i] * slope;
         }
         for i in 0..nodes {
             // D₊ᵀ takes the midpoints before minus those after.
@@ -172,7 +170,7 @@ impl GradedHelmholtz {
                 d * (self.slope[(i + nodes - 1 - j) % nodes] - self.slope[(i + j) % nodes])
             };
             let divergence: f64 = self.stencil.iter().enumerate().map(difference).sum();
-            self.residual[i] = self.grading.weight()[i] * f[i] - self.square[i] * u[i] - divergence;
+            self.residual[i] = self.weight[i] * f[i] - self.square[i] * u[i] - divergence;
         }
     }
 }

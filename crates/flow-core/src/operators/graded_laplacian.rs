@@ -1,17 +1,14 @@
 //! S = D₊ᵀ(1/w)D₊ on graded nodes, so that −`Δ_s` = S/(|Γ|²w): symmetric, ≥ 0, zero on constants only.
 //! See `THEORY.md`, eq. (D8).
 
-use std::sync::Arc;
-
 use super::derivative::Derivative;
 use crate::geometry::vectors::{apply_symbol, mean_of_product, multiply, multiply_by, multiply_by_conjugate};
 use crate::geometry::{Complex64, Grading, PeriodicGrid};
 
-/// Applies S and products with powers of w to spectra; holds its scratch.
+/// Applies S and products with powers of w to spectra, for any grading w on the nodes; holds its scratch.
 #[derive(Clone, Debug)]
 pub struct GradedLaplacian {
     grid: PeriodicGrid,
-    grading: Arc<Grading>,
     to_flux: Vec<Complex64>,
     inverse_to_flux: Vec<Complex64>,
     values: Vec<f64>,
@@ -21,44 +18,32 @@ impl GradedLaplacian {
     /// S of `derivative`; none if its nodes are uniform.
     #[must_use]
     pub fn of(grid: &PeriodicGrid, derivative: &Derivative) -> Option<Self> {
-        let grading = derivative.grading()?.clone();
+        derivative.grading()?;
         Some(Self {
             grid: grid.clone(),
-            grading,
             to_flux: derivative.to_flux().to_vec(),
             inverse_to_flux: derivative.inverse_to_flux().to_vec(),
             values: vec![0.0; grid.nodes()],
         })
     }
 
-    /// The grading w.
-    #[must_use]
-    pub fn grading(&self) -> &Grading {
-        &self.grading
-    }
-
-    /// Goes on with the metric `grading`, on as many nodes.
-    pub fn follow(&mut self, grading: &Grading) {
-        Arc::make_mut(&mut self.grading).copy_from(grading);
-    }
-
     /// out = S of the field with the Fourier coefficients `spectrum`.
-    pub fn apply(&mut self, spectrum: &[Complex64], out: &mut [Complex64]) {
+    pub fn apply(&mut self, grading: &Grading, spectrum: &[Complex64], out: &mut [Complex64]) {
         apply_symbol(out, spectrum, &self.to_flux);
         self.grid.synthesise(out, &mut self.values);
-        multiply(&mut self.values, self.grading.inverse_at_midpoints());
+        multiply(&mut self.values, grading.inverse_at_midpoints());
         self.grid.transform(&self.values, out);
         multiply_by_conjugate(out, 1.0, &self.to_flux);
     }
 
     /// Replaces f by u with Su = f less its mean; u has mean zero over the nodes.
-    pub fn solve(&mut self, spectrum: &mut [Complex64]) {
+    pub fn solve(&mut self, grading: &Grading, spectrum: &mut [Complex64]) {
         spectrum[0] = Complex64::default();
         multiply_by_conjugate(spectrum, 1.0, &self.inverse_to_flux);
         self.grid.synthesise(spectrum, &mut self.values);
         // D₊u = w(q + c) has mean zero.
-        let weight = self.grading.at_midpoints();
-        let constant = mean_of_product(weight, &self.values) / self.grading.midpoint_mean();
+        let weight = grading.at_midpoints();
+        let constant = mean_of_product(weight, &self.values) / grading.midpoint_mean();
         self.values.iter_mut().for_each(|q| *q -= constant);
         multiply(&mut self.values, weight);
         self.grid.transform(&self.values, spectrum);
@@ -66,9 +51,9 @@ impl GradedLaplacian {
     }
 
     /// Multiplies a field by w.
-    pub fn weigh(&mut self, spectrum: &mut [Complex64]) {
+    pub fn weigh(&mut self, grading: &Grading, spectrum: &mut [Complex64]) {
         self.grid.synthesise(spectrum, &mut self.values);
-        multiply(&mut self.values, self.grading.weight());
+        multiply(&mut self.values, grading.weight());
         self.grid.transform(&self.values, spectrum);
     }
 }

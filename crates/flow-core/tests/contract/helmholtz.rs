@@ -121,21 +121,22 @@ fn a_line_has_no_inverse() {
 }
 
 /// On uniform and on graded nodes.
-fn operators(nodes: usize) -> [CurveHelmholtz; 2] {
+fn operators(nodes: usize) -> [(CurveHelmholtz, Option<Arc<Grading>>); 2] {
     let grid = PeriodicGrid::new(nodes);
     let weight = |i: usize| 1.0 + 0.3 * (TAU * i as f64 / Grading::samples(nodes) as f64).cos();
     let samples: Vec<f64> = (0..Grading::samples(nodes)).map(weight).collect();
     let grading = Arc::new(Grading::new(&samples).expect("smooth"));
     [None, Some(grading)].map(|grading| {
-        CurveHelmholtz::new(&Derivative::graded(DerivativeFamily::Central8, &grid, grading), nodes)
+        let derivative = Derivative::graded(DerivativeFamily::Central8, &grid, grading.clone());
+        (CurveHelmholtz::new(&derivative, nodes), grading)
     })
 }
 
 #[test]
 fn what_is_no_length_is_refused() {
-    for mut helmholtz in operators(32) {
+    for (mut helmholtz, grading) in operators(32) {
         for length in [-LENGTH, 0.0, f64::NAN, f64::INFINITY] {
-            let error = helmholtz.set(&[1.0; 32], length).expect_err("no length");
+            let error = helmholtz.set(grading.as_deref(), &[1.0; 32], length).expect_err("no length");
             assert!(matches!(error, HelmholtzError::NoLength { .. }), "{error}");
         }
     }
@@ -144,10 +145,12 @@ fn what_is_no_length_is_refused() {
 #[test]
 fn other_numbers_of_values_are_refused() {
     for nodes in [32, 600] {
-        for mut helmholtz in operators(nodes) {
+        for (mut helmholtz, grading) in operators(nodes) {
             for found in [7, nodes + 1] {
-                panics("one curvature per node", || _ = helmholtz.set(&vec![1.0; found], LENGTH));
-                helmholtz.set(&vec![1.0; nodes], LENGTH).unwrap();
+                panics("one curvature per node", || {
+                    _ = helmholtz.set(grading.as_deref(), &vec![1.0; found], LENGTH);
+                });
+                helmholtz.set(grading.as_deref(), &vec![1.0; nodes], LENGTH).unwrap();
                 let (short, mut whole) = (vec![1.0; found], vec![0.0; nodes]);
                 panics("one value per node", || helmholtz.solve(&short, &mut whole));
                 panics("one value per node", || helmholtz.solve(&whole.clone(), &mut vec![0.0; found]));
@@ -160,12 +163,12 @@ fn other_numbers_of_values_are_refused() {
 /// No answer of a state that was given before, and none at all before the first.
 #[test]
 fn only_what_was_factorised_is_solved() {
-    for mut helmholtz in operators(32) {
+    for (mut helmholtz, grading) in operators(32) {
         let mut u = vec![0.0; 32];
         panics("not factorised", || helmholtz.solve(&[1.0; 32], &mut u));
-        helmholtz.set(&[1.0; 32], LENGTH).unwrap();
+        helmholtz.set(grading.as_deref(), &[1.0; 32], LENGTH).unwrap();
         helmholtz.solve(&[1.0; 32], &mut u);
-        helmholtz.set(&[0.0; 32], LENGTH).unwrap_err();
+        helmholtz.set(grading.as_deref(), &[0.0; 32], LENGTH).unwrap_err();
         panics("not factorised", || helmholtz.solve(&[1.0; 32], &mut u));
     }
 }

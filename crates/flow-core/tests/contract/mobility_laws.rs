@@ -4,8 +4,9 @@ use std::f64::consts::TAU;
 
 use flow_core::energies::{Bending, EnergyTerm, Length, Local};
 use flow_core::expression::Expression;
+use flow_core::flow::CurveFields;
 use flow_core::geometry::shapes::Shape;
-use flow_core::geometry::{Complex64, PeriodicGrid};
+use flow_core::geometry::{Complex64, Layout, PeriodicGrid, SpectralLayout};
 use flow_core::operators::{Derivative, DerivativeFamily};
 use proptest::prelude::*;
 
@@ -186,6 +187,16 @@ fn the_implicit_operator_is_the_jacobian_at_rest() {
     }
 }
 
+/// A curve of which no more than the length is known.
+fn curve_of(length: f64, grid: &mut PeriodicGrid, derivative: &Derivative) -> CurveFields {
+    let layout = Layout::new(grid.nodes(), 0);
+    let mut at = CurveFields::new(layout, grid, derivative);
+    let mut state = vec![0.0; SpectralLayout::new(layout).len()];
+    state[SpectralLayout::new(layout).length_index()] = length;
+    at.set(&state, grid, derivative);
+    at
+}
+
 #[test]
 fn a_constant_weight_is_plain_diffusion() {
     use flow_core::flow::{DensityMobility, Diffusion, WeightedDiffusion};
@@ -198,9 +209,10 @@ fn a_constant_weight_is_plain_diffusion() {
             let mut potential = vec![Complex64::default(); grid.modes()];
             grid.transform(&noise(7, nodes), &mut potential);
             let (mut plain, mut weighted) = (potential.clone(), potential.clone());
-            Diffusion::new(&grid, &derivative).apply(1.7, &potential, &mut plain);
+            let at = curve_of(1.7, &mut grid, &derivative);
+            Diffusion::new(&grid, &derivative).apply(&at, &potential, &mut plain);
             WeightedDiffusion::new(&grid, &derivative, vec![2.0; nodes]).apply(
-                1.7,
+                &at,
                 &potential,
                 &mut weighted,
             );
@@ -232,7 +244,7 @@ fn weighted_diffusion_converges_at_the_order_of_the_family() {
         let mut potential = vec![Complex64::default(); grid.modes()];
         grid.transform(&at(&|x| (2.0 * x).cos()), &mut potential);
         let mut image = potential.clone();
-        mobility.apply(length, &potential, &mut image);
+        mobility.apply(&curve_of(length, &mut grid, &derivative), &potential, &mut image);
         let mut values = vec![0.0; nodes];
         grid.synthesise(&image, &mut values);
         // w μ′ = −2(1 + ½ sin x) sin 2x.
@@ -269,11 +281,13 @@ fn three_points_come_near_the_mobility_of_a_density() {
     for (density, family) in
         Density::ALL.into_iter().flat_map(|density| DerivativeFamily::ALL.map(|family| (density, family)))
     {
-        let mut mobility = density.build(&grid, &Derivative::new(family, &grid));
-        mobility.apply(length, spectrum, image);
+        let derivative = Derivative::new(family, &grid);
+        let at = curve_of(length, &mut grid, &derivative);
+        let mut mobility = density.build(&grid, &derivative);
+        mobility.apply(&at, spectrum, image);
         grid.synthesise(image, &mut exact);
         let error = |node: usize| {
-            let [left, own, right] = mobility.three_points(node, nodes, length);
+            let [left, own, right] = mobility.three_points(&at, node, nodes);
             let of = |place: usize| potential[place % nodes];
             left * of(node + nodes - 1) + own * of(node) + right * of(node + 1) - exact[node]
         };

@@ -15,21 +15,20 @@ use crate::vectors::noise;
 
 const GAMMA: f64 = 1e-3;
 
-/// ∫(κ²/2 + ρκ_s²) dσ: the curvature has no cost of slopes where ρ = 0.
+/// ∫(κ²/2 + ρ|`∇_sκ`|²) dσ: the curvature has no cost of slopes where ρ = 0.
 fn terms(nodes: usize) -> Vec<Box<dyn EnergyTerm>> {
-    let density = Expression::parse("r*u^2", &["k", "r", "u", "v"]).unwrap();
-    vec![Box::new(Bending::new(1.0)), Box::new(Local::new(&density, 2, nodes).unwrap())]
+    let density = Expression::parse("r*u^2", &["k", "r", "u", "v"]).expect("a formula");
+    vec![Box::new(Bending::new(1.0)), Box::new(Local::new(&density, 2, nodes).expect("short derivatives"))]
 }
 
 /// A residual after each part of the preconditioner at the last of `states`, built at the first of them.
 fn parts(flow: &mut GradientFlow, solver: LinearSolver, states: &[&[f64]]) -> [Option<Vec<f64>>; 3] {
-    let mut built = None;
+    flow.spectral_linearise(states[0]);
+    let mut preconditioner = Preconditioner::new(solver, flow);
     for state in states {
         flow.spectral_linearise(state);
-        let preconditioner = built.get_or_insert_with(|| Preconditioner::new(solver, flow));
-        preconditioner.factorise(flow, GAMMA).unwrap();
+        preconditioner.factorise(flow, GAMMA).expect("no vanishing pivot");
     }
-    let mut preconditioner = built.unwrap();
     let residual = noise(3, states[0].len());
     let [mut applied, mut weighed, mut settled] = [0; 3].map(|_| residual.clone());
     preconditioner.apply(flow, &mut applied);

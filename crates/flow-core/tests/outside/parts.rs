@@ -2,7 +2,7 @@
 
 use flow_core::energies::{EnergyTerm, Fields, Jet, Order};
 use flow_core::flow::{CurveFields, DensityMobility, Exchange, MobilityError, NormalMobility};
-use flow_core::geometry::{Complex64, Grading};
+use flow_core::geometry::Complex64;
 
 /// (b/4)∫κ⁴(1 + ρ²) dσ.
 #[derive(Debug)]
@@ -70,12 +70,8 @@ pub struct SlowExchange {
 }
 
 impl DensityMobility for SlowExchange {
-    fn follow(&mut self, grading: &Grading) {
-        self.exchange.follow(grading);
-    }
-
-    fn apply(&mut self, length: f64, potential: &[Complex64], out: &mut [Complex64]) {
-        self.exchange.apply(length, potential, out);
+    fn apply(&mut self, at: &CurveFields, potential: &[Complex64], out: &mut [Complex64]) {
+        self.exchange.apply(at, potential, out);
         for value in out {
             *value *= self.speed;
         }
@@ -89,7 +85,7 @@ impl DensityMobility for SlowExchange {
         0
     }
 
-    fn three_points(&self, _: usize, _: usize, _: f64) -> [f64; 3] {
+    fn three_points(&self, _: &CurveFields, _: usize, _: usize) -> [f64; 3] {
         [0.0, self.speed, 0.0]
     }
 

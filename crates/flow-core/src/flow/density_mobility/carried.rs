@@ -1,6 +1,7 @@
 //! A density that is only carried along: 𝓖 = 0. See `THEORY.md`, eq. (F16).
 
 use super::DensityMobility;
+use crate::flow::CurveFields;
 use crate::geometry::Complex64;
 
 /// Every labelled segment keeps its mass.
@@ -12,7 +13,7 @@ impl DensityMobility for Carried {
         true
     }
 
-    fn apply(&mut self, _: f64, _: &[Complex64], out: &mut [Complex64]) {
+    fn apply(&mut self, _: &CurveFields, _: &[Complex64], out: &mut [Complex64]) {
         out.fill(Complex64::default());
     }
 
@@ -24,7 +25,7 @@ impl DensityMobility for Carried {
         0
     }
 
-    fn three_points(&self, _: usize, _: usize, _: f64) -> [f64; 3] {
+    fn three_points(&self, _: &CurveFields, _: usize, _: usize) -> [f64; 3] {
         [0.0; 3]
     }
 

@@ -1,8 +1,9 @@
 //! Diffusion along the curve: 𝓖 = −`Δ_s`. See `THEORY.md`, eq. (F5).
 
 use super::DensityMobility;
+use crate::flow::CurveFields;
 use crate::geometry::vectors::{apply_real_symbol, scale};
-use crate::geometry::{Complex64, Grading, PeriodicGrid};
+use crate::geometry::{Complex64, PeriodicGrid};
 use crate::operators::{Derivative, GradedLaplacian};
 
 /// By the second derivative of the family; the mass is conserved.
@@ -24,16 +25,10 @@ impl Diffusion {
 }
 
 impl DensityMobility for Diffusion {
-    fn follow(&mut self, grading: &Grading) {
-        if let Some(graded) = &mut self.graded {
-            graded.follow(grading);
-        }
-    }
-
-    fn apply(&mut self, length: f64, potential: &[Complex64], out: &mut [Complex64]) {
-        let factor = 1.0 / (length * length);
-        if let Some(graded) = &mut self.graded {
-            graded.apply(potential, out);
+    fn apply(&mut self, at: &CurveFields, potential: &[Complex64], out: &mut [Complex64]) {
+        let factor = 1.0 / (at.length() * at.length());
+        if let Some((graded, grading)) = self.graded.as_mut().zip(at.grading()) {
+            graded.apply(grading, potential, out);
             scale(bytemuck::cast_slice_mut(out), factor);
             return;
         }
@@ -48,11 +43,11 @@ impl DensityMobility for Diffusion {
         2
     }
 
-    fn three_points(&self, node: usize, nodes: usize, length: f64) -> [f64; 3] {
-        let scale = (nodes as f64 / length).powi(2);
-        let [left, right] = match &self.graded {
+    fn three_points(&self, at: &CurveFields, node: usize, nodes: usize) -> [f64; 3] {
+        let scale = (nodes as f64 / at.length()).powi(2);
+        let [left, right] = match at.grading() {
             None => [scale; 2],
-            Some(graded) => graded.grading().spacing(node, nodes).map(|spacing| scale * spacing),
+            Some(grading) => grading.spacing(node, nodes).map(|spacing| scale * spacing),
         };
         [-left, left + right, -right]
     }

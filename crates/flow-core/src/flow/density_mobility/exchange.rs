@@ -1,7 +1,8 @@
 //! Exchange with the surroundings, the Allen–Cahn flow: 𝓖 = Id. See `THEORY.md`, eq. (F15).
 
 use super::DensityMobility;
-use crate::geometry::{Complex64, Grading, PeriodicGrid};
+use crate::flow::CurveFields;
+use crate::geometry::{Complex64, PeriodicGrid};
 use crate::operators::{Derivative, GradedLaplacian};
 
 /// The mass is not conserved.
@@ -19,16 +20,10 @@ impl Exchange {
 }
 
 impl DensityMobility for Exchange {
-    fn follow(&mut self, grading: &Grading) {
-        if let Some(graded) = &mut self.graded {
-            graded.follow(grading);
-        }
-    }
-
-    fn apply(&mut self, _: f64, potential: &[Complex64], out: &mut [Complex64]) {
+    fn apply(&mut self, at: &CurveFields, potential: &[Complex64], out: &mut [Complex64]) {
         out.copy_from_slice(potential);
-        if let Some(graded) = &mut self.graded {
-            graded.weigh(out);
+        if let Some((graded, grading)) = self.graded.as_mut().zip(at.grading()) {
+            graded.weigh(grading, out);
         }
     }
 
@@ -40,7 +35,7 @@ impl DensityMobility for Exchange {
         0
     }
 
-    fn three_points(&self, _: usize, _: usize, _: f64) -> [f64; 3] {
+    fn three_points(&self, _: &CurveFields, _: usize, _: usize) -> [f64; 3] {
         [0.0, 1.0, 0.0]
     }
 

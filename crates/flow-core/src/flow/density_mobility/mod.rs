@@ -9,7 +9,8 @@ mod weighted_diffusion;
 
 use std::fmt::Debug;
 
-use crate::geometry::{Complex64, Grading};
+use super::curve_fields::CurveFields;
+use crate::geometry::Complex64;
 
 pub use carried::Carried;
 pub use diffusion::Diffusion;
@@ -23,12 +24,9 @@ pub trait DensityMobility: Debug + Send + Sync {
         false
     }
 
-    /// Goes on with the metric `grading`, if the mobility was made for graded nodes.
-    fn follow(&mut self, _grading: &Grading) {}
-
-    /// w𝓖 of the spectrum `potential` into `out`, on a curve of length `length`: per unit parameter and length, with the
-    /// grading w, 1 on uniform nodes.
-    fn apply(&mut self, length: f64, potential: &[Complex64], out: &mut [Complex64]);
+    /// w𝓖 of the spectrum `potential` into `out`, at the state `at`: per unit parameter and length, with the grading w, 1 on
+    /// uniform nodes.
+    fn apply(&mut self, at: &CurveFields, potential: &[Complex64], out: &mut [Complex64]);
 
     /// Symbol of 𝓖 with its coefficients frozen at their means, for the symbol of −∂_s² per unit parameter.
     fn symbol(&self, minus_laplacian: f64, length: f64) -> f64;
@@ -36,8 +34,9 @@ pub trait DensityMobility: Debug + Send + Sync {
     /// Order of 𝓖 as a differential operator.
     fn order(&self) -> usize;
 
-    /// Second-order approximation of 𝓖 at node `node` of `nodes` graded alike: weights of the left neighbour, the node, the right one.
-    fn three_points(&self, node: usize, nodes: usize, length: f64) -> [f64; 3];
+    /// Second-order approximation of 𝓖 at the state `at`, at node `node` of `nodes` graded alike: weights of the left neighbour, the
+    /// node, the right one.
+    fn three_points(&self, at: &CurveFields, node: usize, nodes: usize) -> [f64; 3];
 
     /// Whether the mass ∫ρ dσ is kept, whatever the energy.
     fn conserves_mass(&self) -> bool;

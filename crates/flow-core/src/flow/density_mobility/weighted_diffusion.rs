@@ -3,11 +3,10 @@
 //! On the grid 𝓖 = −D₋(w D₊ ·)/L², w at the flux points, where the grading divides it; the part of the second derivative that D₊ does not see (the
 //! sawtooth of the Fourier family) has the mean weight. A constant weight w is w times plain diffusion.
 
-use std::sync::Arc;
-
 use super::DensityMobility;
+use crate::flow::CurveFields;
 use crate::geometry::vectors::multiply;
-use crate::geometry::{Complex64, Grading, PeriodicGrid};
+use crate::geometry::{Complex64, PeriodicGrid};
 use crate::operators::Derivative;
 
 /// The mass is conserved.
@@ -22,7 +21,6 @@ pub struct WeightedDiffusion {
     /// Distance of the first flux point from the first node, in node distances.
     offset: f64,
     flux: Vec<f64>,
-    grading: Option<Arc<Grading>>,
 }
 
 impl WeightedDiffusion {
@@ -44,7 +42,6 @@ impl WeightedDiffusion {
             weight,
             offset: Self::offset(derivative),
             flux: vec![0.0; grid.nodes()],
-            grading: derivative.grading().cloned(),
         }
     }
 
@@ -69,13 +66,7 @@ impl WeightedDiffusion {
 }
 
 impl DensityMobility for WeightedDiffusion {
-    fn follow(&mut self, grading: &Grading) {
-        if let Some(own) = &mut self.grading {
-            Arc::make_mut(own).copy_from(grading);
-        }
-    }
-
-    fn apply(&mut self, length: f64, potential: &[Complex64], out: &mut [Complex64]) {
+    fn apply(&mut self, at: &CurveFields, potential: &[Complex64], out: &mut [Complex64]) {
         for ((slope, potential), symbol) in out.iter_mut().zip(potential).zip(&self.to_flux) {
             *slope = potential * symbol;
         }
@@ -83,11 +74,11 @@ impl DensityMobility for WeightedDiffusion {
         for (flux, weight) in self.flux.iter_mut().zip(&self.weight) {
             *flux *= weight;
         }
-        if let Some(grading) = &self.grading {
+        if let Some(grading) = at.grading() {
             multiply(&mut self.flux, grading.inverse_at_midpoints());
         }
         self.grid.transform(&self.flux, out);
-        let scale = 1.0 / (length * length);
+        let scale = 1.0 / (at.length() * at.length());
         let symbols = self.to_flux.iter().zip(&self.unseen);
         for ((out, potential), (to_flux, unseen)) in out.iter_mut().zip(potential).zip(symbols) {
             *out = (*out * to_flux.conj() + potential * (self.mean * unseen)) * scale;
@@ -102,11 +93,11 @@ impl DensityMobility for WeightedDiffusion {
         2
     }
 
-    fn three_points(&self, node: usize, nodes: usize, length: f64) -> [f64; 3] {
-        let scale = (nodes as f64 / length).powi(2);
-        let at = |shift: f64| scale * self.weight_at((node as f64 + shift) / nodes as f64);
-        let [near, far] = self.grading.as_ref().map_or([1.0; 2], |grading| grading.spacing(node, nodes));
-        let (left, right) = (near * at(-0.5), far * at(0.5));
+    fn three_points(&self, at: &CurveFields, node: usize, nodes: usize) -> [f64; 3] {
+        let scale = (nodes as f64 / at.length()).powi(2);
+        let weight = |shift: f64| scale * self.weight_at((node as f64 + shift) / nodes as f64);
+        let [near, far] = at.grading().map_or([1.0; 2], |grading| grading.spacing(node, nodes));
+        let (left, right) = (near * weight(-0.5), far * weight(0.5));
         [-left, left + right, -right]
     }
 

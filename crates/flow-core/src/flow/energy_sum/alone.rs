@@ -1,4 +1,4 @@
-//! Each term alone, and what it costs: evaluations with it alone, less evaluations with none.
+//! Each term alone: its energy, and what it costs, by evaluations with it alone less evaluations with none.
 
 use std::mem;
 use std::time::Instant;
@@ -45,6 +45,14 @@ impl TermCost {
 }
 
 impl EnergySum {
+    /// Energy of each term at a state, in the order of the terms; the linearisation stays.
+    pub fn energies_by_term(&mut self, at: &CurveFields) -> Vec<f64> {
+        let mut gradient = self.room();
+        let mut energies = Vec::with_capacity(self.terms.len());
+        self.each_alone(|alone| energies.push(alone.gradient(at, &mut gradient)));
+        energies
+    }
+
     /// Lowers `costs`, of no term and of each term alone, to what a round of evaluations at the state `at`, with `motion` as a
     /// motion of it, takes. Overwrites `gradient` and the linearisation.
     pub fn measure_terms(

@@ -4,7 +4,6 @@
 //! nodes; on graded nodes w enters as a weight. See `THEORY.md`, eqs. (D3)–(D5) and (D9).
 
 mod alone;
-mod by_term;
 mod density;
 mod not_finite;
 mod positions;
@@ -27,6 +26,12 @@ pub use alone::TermCost;
 pub use not_finite::{NotFinite, TermPart, TermPlace};
 
 /// All terms of a scene.
+///
+/// # Shapes
+/// Gradients: a spectrum for each field of the state, dual to the pointwise fields φ (and to the metric, if it is one), and one
+/// number for the length ([`IntrinsicGradient`]). Motions `v`: spectral state vectors ([`SpectralLayout`]).
+/// # Units
+/// Energies in that of the scene; the derivative by φ is an energy per φ and arc length.
 #[derive(Debug)]
 pub struct EnergySum {
     terms: Vec<Box<dyn EnergyTerm>>,
@@ -122,14 +127,7 @@ impl EnergySum {
         self.terms.iter().map(|term| term.of_length(length)).fold(LengthJet::default(), LengthJet::plus)
     }
 
-    /// ⟨|D₊φ|²⟩, on graded nodes ⟨|D₊φ|²/w⟩, by Parseval's identity.
-    fn slope_square(&mut self, spectrum: &[Complex64]) -> f64 {
-        match &mut self.graded {
-            None => self.slope_product(spectrum, spectrum),
-            Some(graded) => mean_product(&self.grid, spectrum, graded.image(spectrum)),
-        }
-    }
-
+    /// ⟨D₊a·D₊b⟩ by Parseval's identity.
     fn slope_product(&self, a: &[Complex64], b: &[Complex64]) -> f64 {
         let laplacian = self.derivative.minus_laplacian();
         let product = |m: usize| laplacian[m] * (a[m].re * b[m].re + a[m].im * b[m].im);

@@ -1,8 +1,8 @@
-//! Which value of which term is no number, or too large, and where.
+//! What is wrong with a state: in the words of a term, or which value of which term is no number, or too large, and where.
 
 use super::super::curve_fields::CurveFields;
 use super::EnergySum;
-use crate::energies::{Fields, Jet, LengthJet, Order};
+use crate::energies::{Fields, Jet, LengthJet, Order, TermFault};
 use crate::flow::IntrinsicGradient;
 use crate::geometry::Complex64;
 
@@ -51,6 +51,13 @@ pub struct NotFinite {
 }
 
 impl EnergySum {
+    /// What a term finds wrong with the state evaluated last, whose fields are `at`.
+    #[must_use]
+    pub fn fault(&self, at: &CurveFields) -> Option<TermFault> {
+        let fields = Fields::new(self.layout.nodes(), at.pointwise());
+        self.terms.iter().find_map(|term| term.fault(fields))
+    }
+
     /// Whether the pointwise second derivatives at the fields `at` are finite, as a linearisation takes them. Overwrites the
     /// linearisation.
     pub fn has_finite_second_derivatives(&mut self, at: &CurveFields) -> bool {
@@ -82,7 +89,8 @@ impl EnergySum {
             .or_else(|| search(&|alone, _, _| alone.in_jets(at, is_squarable)))
     }
 
-    fn room(&self) -> IntrinsicGradient {
+    /// A gradient for evaluations that are not those of the flow.
+    pub(super) fn room(&self) -> IntrinsicGradient {
         let spectra = vec![Complex64::default(); self.layout.state_fields() * self.grid.modes()];
         IntrinsicGradient { spectra, by_length: 0.0 }
     }

@@ -3,6 +3,12 @@
 use super::{EnergySum, ShapeEnergy};
 
 impl EnergySum {
+    /// Whether a term depends on where the nodes lie.
+    #[must_use]
+    pub fn depends_on_positions(&self) -> bool {
+        self.shape.is_some()
+    }
+
     /// Largest distance of nodes on which the parts that depend on positions are off by the part `error` at most.
     #[must_use]
     pub fn largest_spacing(&self, length: f64, error: f64) -> f64 {

@@ -1,13 +1,13 @@
 //! Graded arc length: ∂_sW = w(−|Γ|κV + ∂_t|Γ|), ∫W dσ = 0, so that the metric stays |Γ|w. See `THEORY.md`, eq. (F3), second paragraph.
 
-use super::{Gauge, MetricRole, ScaledArcLength, Workspace};
+use super::{Gauge, MetricRole, Workspace};
 use crate::flow::CurveFields;
-use crate::geometry::Complex64;
 use crate::geometry::vectors::{
     add_scaled, mean, mean_of_product, multiply, multiply_by, multiply_by_conjugate, multiply_into, scale,
 };
+use crate::geometry::{Complex64, Grading};
 
-/// The nodes keep their fractions of the arc length; without a grading these are equal, as in [`ScaledArcLength`].
+/// The nodes keep their fractions of the arc length, those of a grading: without one there is [`ScaledArcLength`](super::ScaledArcLength).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Graded;
 
@@ -17,7 +17,7 @@ impl Gauge for Graded {
     }
 
     fn rates(&self, work: &mut Workspace, at: &CurveFields, v: &[f64], rates: &mut [Complex64]) -> f64 {
-        let Some(grading) = at.grading() else { return ScaledArcLength.rates(work, at, v, rates) };
+        let grading = grading(at);
         let length = at.length();
         multiply_into(&mut work.product, at.at_nodes(0), v);
         let stretch = mean_of_product(grading.weight(), &work.product);
@@ -33,19 +33,6 @@ impl Gauge for Graded {
         length * stretch
     }
 
-    fn rates_at_hand(
-        &self,
-        work: &mut Workspace,
-        at: &CurveFields,
-        v: &[f64],
-        rates: &mut [Complex64],
-    ) -> f64 {
-        match at.grading() {
-            None => ScaledArcLength.rates_at_hand(work, at, v, rates),
-            Some(_) => self.rates(work, at, v, rates),
-        }
-    }
-
     /// Z − ⟨wZ⟩ − π of (F3): what a stretched piece loses, minus its tension.
     fn stretching(
         &self,
@@ -55,9 +42,7 @@ impl Gauge for Graded {
         by_length: f64,
         out: &mut [f64],
     ) {
-        let Some(grading) = at.grading() else {
-            return ScaledArcLength.stretching(work, at, gradient, by_length, out);
-        };
+        let grading = grading(at);
         work.transport_transposed(at, gradient);
         // W has mean zero over the curve, not over the flux points.
         let excess = -mean(&work.product) / grading.midpoint_mean();
@@ -72,7 +57,7 @@ impl Gauge for Graded {
     }
 
     fn tangential_velocity(&self, work: &mut Workspace, at: &CurveFields, v: &[f64], w: &mut [f64]) {
-        let Some(grading) = at.grading() else { return ScaledArcLength.tangential_velocity(work, at, v, w) };
+        let grading = grading(at);
         multiply_into(&mut work.product, at.at_nodes(0), v);
         scale(&mut work.product, -at.length());
         let mean = mean_of_product(grading.weight(), &work.product);
@@ -86,4 +71,12 @@ impl Gauge for Graded {
             *w -= mean;
         }
     }
+}
+
+/// The grading of the nodes.
+///
+/// # Panics
+/// If they are uniform: a flow map on such nodes has another gauge ([`FlowMap::in_gauge`](crate::flow::FlowMap::in_gauge)).
+fn grading(at: &CurveFields) -> &Grading {
+    at.grading().expect("the nodes are graded")
 }

@@ -14,7 +14,7 @@ pub struct Workspace {
     pub grid: PeriodicGrid,
     /// The derivative with its grading.
     pub derivative: Derivative,
-    /// The grading with −`Δ_s`; none if the nodes are uniform.
+    /// −`Δ_s` without its length; none if the nodes are uniform.
     pub graded: Option<GradedLaplacian>,
     /// Scratch: one value per node.
     pub values: Vec<f64>,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::GradientFlow;
+use super::{Descent, GradientFlow};
 use crate::flow::curve_fields::CurveFields;
 use crate::flow::energy_sum::EnergySum;
 use crate::flow::graded_energy::mean_product;
@@ -70,9 +70,9 @@ impl GradientFlow {
     /// # Source
     /// `THEORY.md`, eqs. (D3)–(D10): the derivatives are those of the discrete energy.
     pub fn check_derivatives(&mut self, y: &[f64]) -> Vec<DerivativeErrors> {
-        let layout = self.layout;
-        let (grid, derivative) = self.map.grid_and_derivative();
-        let (at, out) = (&mut self.current, &mut self.gradient);
+        let Descent { layout, map, gradient: out, .. } = &mut self.descent;
+        let (layout, at) = (*layout, &mut self.current.fields);
+        let (grid, derivative) = map.grid_and_derivative();
         let mut probe = Probe { layout, grid, derivative, at, out, usual: Vec::new() };
         let state = probe.encoded(y);
         let waves = probe.waves(y);

@@ -1,6 +1,7 @@
 //! The right-hand side −`𝓚(X)∇𝓕_h` and the implicit operator −𝓚 Hess `𝓕_h`. See `THEORY.md`, eqs. (F6) and (F7).
 
 mod derivative_check;
+mod descent;
 mod implicit;
 mod not_finite;
 mod part_costs;
@@ -8,16 +9,15 @@ mod parts;
 mod slopes;
 mod turning;
 
-use implicit::drive;
+use descent::{Descent, Place};
 
 use super::curve_fields::CurveFields;
 use super::density_mobility::DensityMobility;
 use super::energy_sum::EnergySum;
 use super::flow_map::FlowMap;
-use super::graded_energy::add_spectrum;
 use super::intrinsic_gradient::IntrinsicGradient;
-use super::normal_mobility::{MobilityError, NormalMobility};
-use crate::geometry::{Complex64, Layout, SpectralLayout};
+use super::normal_mobility::NormalMobility;
+use crate::geometry::{Complex64, Layout};
 
 pub use derivative_check::DerivativeErrors;
 pub use part_costs::{EvaluationCost, PartCosts};
@@ -64,23 +64,15 @@ pub struct Rate {
 /// ```
 #[derive(Debug)]
 pub struct GradientFlow {
-    layout: Layout,
-    map: FlowMap,
     energy: EnergySum,
-    density_mobilities: Vec<Box<dyn DensityMobility>>,
-    current: CurveFields,
-    current_mobility: Box<dyn NormalMobility>,
-    frozen: CurveFields,
-    frozen_mobility: Box<dyn NormalMobility>,
-    frozen_fault: Option<MobilityError>,
+    descent: Descent,
+    /// The state evaluated last, and that of the linearisation.
+    current: Place,
+    frozen: Place,
     /// Whether there is a linearisation.
     linearised: bool,
     /// Minus the tension at the linearisation.
     frozen_stretching: Vec<f64>,
-    gradient: IntrinsicGradient,
-    force: Vec<f64>,
-    velocity: Vec<f64>,
-    spectrum: Vec<Complex64>,
 }
 
 impl GradientFlow {
@@ -98,99 +90,104 @@ impl GradientFlow {
     ) -> Self {
         assert_eq!(density_mobilities.len(), layout.densities(), "one mobility per density");
         let (grid, derivative) = map.grid_and_derivative();
-        let current = CurveFields::new(layout, grid, derivative);
-        let modes = grid.modes();
-        let spectra = vec![Complex64::default(); layout.state_fields() * modes];
-        Self {
+        let fields = CurveFields::new(layout, grid, derivative);
+        let mobility = normal_mobility.boxed_clone();
+        let frozen = Place { fields: fields.clone(), mobility, fault: None };
+        let spectra = vec![Complex64::default(); layout.state_fields() * layout.modes()];
+        let descent = Descent {
             layout,
             map,
-            energy,
             density_mobilities,
-            frozen: current.clone(),
-            frozen_mobility: normal_mobility.boxed_clone(),
-            frozen_fault: None,
-            linearised: false,
-            frozen_stretching: vec![0.0; layout.nodes()],
-            current,
-            current_mobility: normal_mobility,
             gradient: IntrinsicGradient { spectra, by_length: 0.0 },
             force: vec![0.0; layout.nodes()],
             velocity: vec![0.0; layout.nodes()],
-            spectrum: vec![Complex64::default(); modes],
+            spectrum: vec![Complex64::default(); layout.modes()],
+        };
+        Self {
+            energy,
+            descent,
+            current: Place { fields, mobility: normal_mobility, fault: None },
+            frozen,
+            linearised: false,
+            frozen_stretching: vec![0.0; layout.nodes()],
         }
     }
 
-    /// Rate of `state` into `rate`, both spectral.
+    /// Rate of `state` into `rate`, per time, both spectral ([`crate::geometry::SpectralLayout`]).
     pub fn spectral_rate(&mut self, state: &[f64], rate: &mut [f64]) -> Rate {
         let evaluated = self.spectral_dissipation(state);
-        self.write_rates(false, rate);
+        self.descent.write_rates(&self.current.fields, rate);
         evaluated
     }
 
     /// Energy and dissipation of the spectral `state`; cheaper than a rate.
     pub fn spectral_dissipation(&mut self, state: &[f64]) -> Rate {
         let energy = self.spectral_gradient(state);
-        self.descend(false);
-        Rate { energy, dissipation: self.dissipation() }
+        let Self { descent, current, .. } = self;
+        current.set_mobility();
+        descent.descend(current);
+        let of_the_curve = descent.curve_dissipation(&current.fields);
+        Rate { energy, dissipation: descent.add_density_dissipation(&current.fields, of_the_curve) }
     }
 
     /// Spectral rate at the state evaluated last, by [`GradientFlow::spectral_dissipation`].
     pub fn rate_at_hand(&mut self, rate: &mut [f64]) {
-        self.write_rates(false, rate);
+        self.descent.write_rates(&self.current.fields, rate);
     }
 
     /// Takes the fields of the spectral `state`, without evaluating anything.
     pub fn set_current(&mut self, state: &[f64]) {
-        let (grid, derivative) = self.map.grid_and_derivative();
-        self.current.set(state, grid, derivative);
+        let (grid, derivative) = self.descent.map.grid_and_derivative();
+        self.current.fields.set(state, grid, derivative);
     }
 
     /// Energy of the spectral `state`; its gradient is then at [`GradientFlow::gradient`].
     pub fn spectral_gradient(&mut self, state: &[f64]) -> f64 {
         self.set_current(state);
-        self.energy.gradient(&self.current, &mut self.gradient)
+        self.energy.gradient(&self.current.fields, &mut self.descent.gradient)
     }
 
     /// Energy of each term at the state evaluated last.
     pub fn current_energies_by_term(&mut self) -> Vec<f64> {
-        self.energy.energies_by_term(&self.current)
+        self.energy.energies_by_term(&self.current.fields)
     }
 
     /// What a term finds wrong with the state evaluated last.
     #[must_use]
     pub fn fault(&self) -> Option<crate::energies::TermFault> {
-        self.energy.fault(&self.current)
+        self.energy.fault(&self.current.fields)
     }
 
     /// Gradient of the energy at the state evaluated last.
     #[must_use]
     pub fn gradient(&self) -> &IntrinsicGradient {
-        &self.gradient
+        &self.descent.gradient
     }
 
-    /// Force f on the normal motion at the state evaluated last.
+    /// Force f on the normal motion at the state evaluated last: energy lost per normal displacement and arc length, one value per
+    /// node.
     #[must_use]
     pub fn normal_force(&self) -> &[f64] {
-        &self.force
+        &self.descent.force
     }
 
-    /// Normal velocity V at the state evaluated last.
+    /// Normal velocity V = 𝓑f at the state evaluated last, outward: length per time, one value per node.
     #[must_use]
     pub fn normal_velocity(&self) -> &[f64] {
-        &self.velocity
+        &self.descent.velocity
     }
 
-    /// Tangential velocity W at the state evaluated last.
+    /// Tangential velocity W of the gauge at the state evaluated last, into `w`: length per time, one value per node.
     pub fn tangential_velocity(&mut self, w: &mut [f64]) {
-        self.map.tangential_velocity(&self.current, &self.velocity, w);
+        self.descent.map.tangential_velocity(&self.current.fields, &self.descent.velocity, w);
     }
 
     /// Freezes the implicit operator −𝓚 Hess `𝓕_h` at the spectral `state`.
     pub fn spectral_linearise(&mut self, state: &[f64]) {
-        let (grid, derivative) = self.map.grid_and_derivative();
-        self.frozen.set(state, grid, derivative);
-        self.energy.linearise(&self.frozen, &mut self.gradient);
-        self.frozen_fault = self.frozen_mobility.set(&self.frozen).err();
+        let (grid, derivative) = self.descent.map.grid_and_derivative();
+        self.frozen.fields.set(state, grid, derivative);
+        self.energy.linearise(&self.frozen.fields, &mut self.descent.gradient);
+        self.frozen.set_mobility();
         self.linearised = true;
         self.freeze_tension();
         self.hold_area();
@@ -199,13 +196,13 @@ impl GradientFlow {
     /// Spectral rate at the state of the linearisation; call right after [`GradientFlow::spectral_linearise`].
     pub fn frozen_rate(&mut self, rate: &mut [f64]) {
         if self.energy.depends_on_positions() {
-            self.descend(true); // the tension is left out there
+            self.descent.descend(&mut self.frozen); // the tension is left out there
         } else {
-            let (frozen, gradient) = (&self.frozen, &self.gradient.spectra);
-            self.map.complete_force(frozen, gradient, &self.frozen_stretching, &mut self.force);
+            let Descent { map, gradient, force, .. } = &mut self.descent;
+            map.complete_force(&self.frozen.fields, &gradient.spectra, &self.frozen_stretching, force);
             self.drive_frozen();
         }
-        self.write_rates(true, rate);
+        self.descent.write_rates(&self.frozen.fields, rate);
     }
 
     /// Product of the frozen Hess `𝓕_h` with the spectral `v`, at [`GradientFlow::gradient`].
@@ -214,7 +211,7 @@ impl GradientFlow {
     /// Before [`GradientFlow::spectral_linearise`].
     pub fn spectral_hessian_product(&mut self, v: &[f64]) {
         assert!(self.linearised, "products are those of a linearisation, and there is none");
-        self.energy.hessian_product(&self.frozen, v, &mut self.gradient);
+        self.energy.hessian_product(&self.frozen.fields, v, &mut self.descent.gradient);
     }
 
     /// 𝓚 applied to the spectral dual vector `dual`, at the frozen state.
@@ -224,66 +221,12 @@ impl GradientFlow {
     pub fn spectral_mobility(&mut self, dual: &[f64], out: &mut [f64]) {
         assert!(self.linearised, "𝓚 is that at a linearisation, and there is none");
         let layout = self.spectral_layout();
-        self.gradient.spectra.copy_from_slice(layout.spectra(dual));
-        self.gradient.by_length = dual[layout.length_index()];
-        self.descend(true);
-        self.write_rates(true, out);
+        self.descent.gradient.spectra.copy_from_slice(layout.spectra(dual));
+        self.descent.gradient.by_length = dual[layout.length_index()];
+        self.descent.descend(&mut self.frozen);
+        self.descent.write_rates(&self.frozen.fields, out);
         for value in out.iter_mut() {
             *value = -*value;
         }
-    }
-
-    /// Force and normal velocity of the gradient at hand; the velocity is NaN where the mobility is not defined.
-    fn descend(&mut self, frozen: bool) {
-        let (at, mobility, fault) = if frozen {
-            (&self.frozen, &mut self.frozen_mobility, self.frozen_fault)
-        } else {
-            let fault = self.current_mobility.set(&self.current).err();
-            (&self.current, &mut self.current_mobility, fault)
-        };
-        self.map.force(at, &self.gradient.spectra, self.gradient.by_length, &mut self.force);
-        drive(mobility.as_mut(), fault, at, &self.force, &mut self.velocity);
-    }
-
-    fn dissipation(&mut self) -> f64 {
-        let of_the_curve = self.current.mean_of_product(&self.force, &self.velocity);
-        self.add_density_dissipation(self.current.length() * of_the_curve)
-    }
-
-    fn add_density_dissipation(&mut self, mut sum: f64) -> f64 {
-        let length = self.current.length();
-        for (density, mobility) in self.density_mobilities.iter_mut().enumerate() {
-            if let Some(metric) = self.current.moving_metric() {
-                mobility.follow(metric);
-            }
-            let mu = &self.gradient.spectra[self.layout.spectrum(density + 1)];
-            mobility.apply(length, mu, &mut self.spectrum);
-            sum += length * self.map.mean_product(mu, &self.spectrum);
-        }
-        sum
-    }
-
-    /// Rates of the velocity and of the gradient at hand.
-    fn write_rates(&mut self, frozen: bool, out: &mut [f64]) {
-        let at = if frozen { &self.frozen } else { &self.current };
-        let length = at.length();
-        let layout = SpectralLayout::new(self.layout);
-        let rates = layout.spectra_mut(out);
-        let length_rate = if frozen {
-            self.map.rates(at, &self.velocity, rates)
-        } else {
-            self.map.rates_at_hand(at, &self.velocity, rates)
-        };
-        let grid = self.map.grid_mut();
-        for (density, mobility) in self.density_mobilities.iter_mut().enumerate() {
-            if let Some(metric) = at.moving_metric() {
-                mobility.follow(metric);
-            }
-            let range = self.layout.spectrum(density + 1);
-            mobility.apply(length, &self.gradient.spectra[range.clone()], &mut self.spectrum);
-            add_spectrum(&mut rates[range], -length, &self.spectrum);
-        }
-        grid.make_real(rates);
-        out[layout.length_index()] = length_rate;
     }
 }

@@ -7,12 +7,12 @@ impl GradientFlow {
     /// Whether the pointwise second derivatives of the energy are finite there: no implicit step can be taken from it otherwise.
     pub fn has_finite_second_derivatives(&mut self) -> bool {
         self.linearised = false; // products would be those of two states
-        self.energy.has_finite_second_derivatives(&self.current)
+        self.energy.has_finite_second_derivatives(&self.current.fields)
     }
 
     /// The value of a term that is not finite there, or too large to be squared, if there is one.
     pub fn not_finite(&mut self) -> Option<NotFinite> {
         self.linearised = false;
-        self.energy.not_finite(&self.current)
+        self.energy.not_finite(&self.current.fields)
     }
 }

@@ -3,7 +3,7 @@
 
 use std::time::Instant;
 
-use super::{GradientFlow, drive};
+use super::{Descent, GradientFlow};
 use crate::flow::energy_sum::TermCost;
 
 /// Seconds of one part in one evaluation of each kind.
@@ -53,13 +53,13 @@ impl GradientFlow {
             idle = idle.min(seconds(|| ()));
             self.measure_whole(state, &mut scratch, &mut whole);
             // Before the terms: they leave another gradient behind.
-            density = density.min(seconds(|| _ = self.add_density_dissipation(0.0)));
-            let Self { current, current_mobility, force, velocity, energy, gradient, .. } = self;
+            let Self { current, descent, energy, .. } = self;
+            density = density.min(seconds(|| _ = descent.add_density_dissipation(&current.fields, 0.0)));
+            let Descent { force, velocity, gradient, .. } = descent;
             // Where the mobility is not defined, that it finds so is all that it costs.
-            let mut fault = None;
-            set = set.min(seconds(|| fault = current_mobility.set(current).err()));
-            apply = apply.min(seconds(|| drive(current_mobility.as_mut(), fault, current, force, velocity)));
-            energy.measure_terms(current, state, gradient, &mut terms);
+            set = set.min(seconds(|| current.set_mobility()));
+            apply = apply.min(seconds(|| current.drive(force, velocity)));
+            energy.measure_terms(&current.fields, state, gradient, &mut terms);
         }
         let [set, apply, density] = [set, apply, density].map(|least| (least - idle).max(0.0));
         PartCosts {

@@ -14,7 +14,7 @@ impl GradientFlow {
     /// Shape of the state vector.
     #[must_use]
     pub fn layout(&self) -> Layout {
-        self.layout
+        self.descent.layout
     }
 
     /// The terms of the energy, to read.
@@ -26,47 +26,47 @@ impl GradientFlow {
     /// Mobilities of the densities.
     #[must_use]
     pub fn density_mobilities(&self) -> &[Box<dyn DensityMobility>] {
-        &self.density_mobilities
+        &self.descent.density_mobilities
     }
 
     /// The normal mobility at the linearisation.
     #[must_use]
     pub fn normal_mobility(&self) -> &dyn NormalMobility {
-        &*self.frozen_mobility
+        &*self.frozen.mobility
     }
 
     /// Why products of the implicit operator are NaN: the normal mobility is not defined at the linearisation.
     #[must_use]
     pub fn linearisation_fault(&self) -> Option<MobilityError> {
-        self.frozen_fault
+        self.frozen.fault
     }
 
     /// Fields at the state evaluated last.
     #[must_use]
     pub fn current(&self) -> &CurveFields {
-        &self.current
+        &self.current.fields
     }
 
     /// Fields at the linearisation.
     #[must_use]
     pub fn frozen(&self) -> &CurveFields {
-        &self.frozen
+        &self.frozen.fields
     }
 
     /// The derivative, for others who work on the same nodes.
     #[must_use]
     pub fn derivative(&self) -> &Derivative {
-        self.map.derivative()
+        self.descent.map.derivative()
     }
 
     /// The grid, with its scratch.
     pub fn grid_mut(&mut self) -> &mut PeriodicGrid {
-        self.map.grid_mut()
+        self.descent.map.grid_mut()
     }
 
     /// Both at once.
     pub fn grid_and_derivative(&mut self) -> (&mut PeriodicGrid, &Derivative) {
-        self.map.grid_and_derivative()
+        self.descent.map.grid_and_derivative()
     }
 
     /// Whether the nodes are at equal distances: neither graded nor material.
@@ -78,12 +78,12 @@ impl GradientFlow {
     /// The grading of the nodes; none if they are uniform.
     #[must_use]
     pub fn grading(&self) -> Option<&Arc<Grading>> {
-        self.map.grading()
+        self.descent.map.grading()
     }
 
     /// How often a mode stands in the full spectrum.
     #[must_use]
     pub fn multiplicity(&self, mode: usize) -> f64 {
-        self.map.multiplicity(mode)
+        self.descent.map.multiplicity(mode)
     }
 }

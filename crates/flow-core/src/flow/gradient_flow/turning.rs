@@ -6,45 +6,41 @@ use crate::geometry::Complex64;
 impl GradientFlow {
     /// Mean of the periodic antiderivative of nodal values of mean zero that starts from zero at node 0.
     pub fn mean_antiderivative(&mut self, values: &[f64]) -> f64 {
-        let grid = self.map.grid_mut();
-        grid.transform(values, &mut self.spectrum);
-        grid.integrate(&mut self.spectrum);
+        let grid = self.descent.map.grid_mut();
+        grid.transform(values, &mut self.descent.spectrum);
+        grid.integrate(&mut self.descent.spectrum);
         // The integral has mean zero: less its value at node 0, the sum of its coefficients.
-        let modes = self.spectrum.iter().enumerate();
-        -modes.map(|(mode, value)| self.map.multiplicity(mode) * value.re).sum::<f64>()
+        let modes = self.descent.spectrum.iter().enumerate();
+        -modes.map(|(mode, value)| self.descent.map.multiplicity(mode) * value.re).sum::<f64>()
     }
 
     /// Replaces the spectrum `turning` of a rate of K by scratch, and writes the normal velocity V that makes it to leading
     /// order, K = −|Γ|`Δ_s` V, at the frozen state.
     pub(in crate::flow) fn velocity_of_turning(&mut self, turning: &mut [Complex64], velocity: &mut [f64]) {
-        let length = self.frozen.length();
+        let length = self.frozen.fields.length();
         for value in turning.iter_mut() {
             *value *= length;
         }
-        if let Some(graded) = self.map.graded_laplacian() {
-            if let Some(metric) = self.frozen.moving_metric() {
-                graded.follow(metric);
-            }
-            graded.solve(turning);
+        if let Some((graded, grading)) = self.descent.map.graded_laplacian().zip(self.frozen.fields.grading())
+        {
+            graded.solve(grading, turning);
         } else {
-            let symbols = self.map.derivative().minus_laplacian().iter();
+            let symbols = self.descent.map.derivative().minus_laplacian().iter();
             for (value, symbol) in turning.iter_mut().zip(symbols) {
                 *value = if *symbol > 0.0 { *value / *symbol } else { Complex64::default() };
             }
         }
-        self.map.grid_mut().synthesise(turning, velocity);
+        self.descent.map.grid_mut().synthesise(turning, velocity);
     }
 
     /// K = −|Γ|`Δ_s` V of the velocity with the spectrum `velocity`, to leading order, at the frozen state.
     pub(in crate::flow) fn turning_of_velocity(&mut self, velocity: &[Complex64], turning: &mut [Complex64]) {
-        let length = self.frozen.length();
-        if let Some(graded) = self.map.graded_laplacian() {
-            if let Some(metric) = self.frozen.moving_metric() {
-                graded.follow(metric);
-            }
-            graded.apply(velocity, turning);
+        let length = self.frozen.fields.length();
+        if let Some((graded, grading)) = self.descent.map.graded_laplacian().zip(self.frozen.fields.grading())
+        {
+            graded.apply(grading, velocity, turning);
         } else {
-            let symbols = self.map.derivative().minus_laplacian();
+            let symbols = self.descent.map.derivative().minus_laplacian();
             for ((turning, velocity), symbol) in turning.iter_mut().zip(velocity).zip(symbols) {
                 *turning = velocity * *symbol;
             }
@@ -58,16 +54,20 @@ impl GradientFlow {
     /// `state` its rate to leading order, K = −|Γ|`Δ_s` V, at the frozen state. Overwrites the gradient and the velocity.
     pub(in crate::flow) fn carry_densities(&mut self, state: &mut [f64], factor: f64) {
         let layout = self.spectral_layout();
-        let modes = self.spectrum.len();
+        let modes = self.descent.spectrum.len();
         let (turning, densities) = layout.spectra_mut(state).split_at_mut(modes);
         let (mut spectrum, mut velocity) =
-            (std::mem::take(&mut self.spectrum), std::mem::take(&mut self.velocity));
+            (std::mem::take(&mut self.descent.spectrum), std::mem::take(&mut self.descent.velocity));
         spectrum.copy_from_slice(turning);
         self.velocity_of_turning(&mut spectrum, &mut velocity);
-        (self.spectrum, self.velocity) = (spectrum, velocity);
-        self.map.rates(&self.frozen, &self.velocity, &mut self.gradient.spectra);
-        self.map.grid_mut().make_real(&mut self.gradient.spectra);
-        for (density, rate) in densities.iter_mut().zip(&self.gradient.spectra[modes..]) {
+        (self.descent.spectrum, self.descent.velocity) = (spectrum, velocity);
+        self.descent.map.rates(
+            &self.frozen.fields,
+            &self.descent.velocity,
+            &mut self.descent.gradient.spectra,
+        );
+        self.descent.map.grid_mut().make_real(&mut self.descent.gradient.spectra);
+        for (density, rate) in densities.iter_mut().zip(&self.descent.gradient.spectra[modes..]) {
             *density += rate * factor;
         }
     }

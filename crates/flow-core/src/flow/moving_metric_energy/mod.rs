@@ -144,22 +144,6 @@ impl MovingMetricEnergy {
         mean(self.flux_jet.second(fields + a, fields + b))
     }
 
-    /// Energy of one term: its nodal density `jet`, its slopes, its function of the length.
-    pub fn energy_of(
-        &mut self,
-        term: &mut Box<dyn EnergyTerm>,
-        jet: &Jet,
-        of_length: LengthJet,
-        at: &CurveFields,
-    ) -> f64 {
-        let (_, metric) = at.metric_field();
-        let stiffness: Vec<f64> = (0..self.layout.fields()).map(|field| term.stiffness(field)).collect();
-        self.evaluate_flux(std::slice::from_mut(term), &stiffness, at, metric, Order::Gradient);
-        let per_node = at.length() / self.layout.nodes() as f64;
-        per_node * (dot(metric.weight(), jet.value()) + dot(metric.at_midpoints(), self.flux_jet.value()))
-            + of_length.value
-    }
-
     /// E with its derivatives at the fields `at`.
     fn evaluate_flux(
         &mut self,

@@ -40,11 +40,8 @@ impl Incompressible {
 impl NormalMobility for Incompressible {
     fn set(&mut self, at: &CurveFields) -> Result<(), MobilityError> {
         let kappa = at.at_nodes(0);
-        if let Some(metric) = at.moving_metric() {
-            self.helmholtz.follow(metric);
-        }
         self.mean_square = at.mean_of_product(kappa, kappa);
-        Ok(self.helmholtz.set(kappa, at.length())?)
+        Ok(self.helmholtz.set(at.grading(), kappa, at.length())?)
     }
 
     fn apply(&mut self, at: &CurveFields, force: &[f64], velocity: &mut [f64]) {

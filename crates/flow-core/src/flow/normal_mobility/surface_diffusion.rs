@@ -37,13 +37,10 @@ impl NormalMobility for SurfaceDiffusion {
     fn apply(&mut self, at: &CurveFields, force: &[f64], velocity: &mut [f64]) {
         self.grid.transform(force, &mut self.spectrum);
         let factor = at.length().powi(-2);
-        if let Some((laplacian, image)) = &mut self.graded {
-            if let Some(metric) = at.moving_metric() {
-                laplacian.follow(metric);
-            }
-            laplacian.apply(&self.spectrum, image);
+        if let Some(((laplacian, image), grading)) = self.graded.as_mut().zip(at.grading()) {
+            laplacian.apply(grading, &self.spectrum, image);
             self.grid.synthesise(image, velocity);
-            multiply(velocity, laplacian.grading().inverse());
+            multiply(velocity, grading.inverse());
             scale(velocity, factor);
             return;
         }

@@ -99,16 +99,6 @@ impl ShapeEnergy {
         }
     }
 
-    /// Energy of one term at a state.
-    pub fn energy_of(&mut self, term: &mut dyn EnergyTerm, at: &CurveFields) -> f64 {
-        if !term.has_shape_energy() {
-            return 0.0;
-        }
-        self.embed(at);
-        self.dual.clear();
-        term.add_shape_energy(&self.shape, Order::Gradient, &mut self.dual)
-    }
-
     /// Positions and tangents of a state; mean angle and mean position of the nodes are zero, on which no energy depends.
     fn embed(&mut self, at: &CurveFields) {
         let length = at.length();

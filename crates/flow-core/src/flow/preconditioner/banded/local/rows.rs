@@ -86,7 +86,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
     }
 
     fn take_nodes(&mut self, flow: &GradientFlow, scale: f64) {
-        let (nodes, length) = (self.window.grid.nodes(), flow.frozen().length());
+        let (nodes, at) = (self.window.grid.nodes(), flow.frozen());
         let margin = margin(self.is_surface_diffusion) as isize;
         let firsts = self.matrix.first_rows().map(|row| row / F as isize - margin);
         for (place, node) in self.stencils.nodes.iter_mut().enumerate() {
@@ -103,7 +103,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
                     target[lane] = scale * weight;
                 }
                 for (mobility, density) in node.mobility[1..].iter_mut().zip(flow.density_mobilities()) {
-                    let points = density.three_points(i, nodes, length);
+                    let points = density.three_points(at, i, nodes);
                     let weights =
                         if density.order() == 0 { MASS.map(|mass| mass * points[1]) } else { points };
                     for (target, weight) in mobility.iter_mut().zip(weights) {

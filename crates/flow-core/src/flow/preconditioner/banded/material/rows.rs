@@ -128,7 +128,7 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
             for f in 1..F {
                 let mut row = [[0.0; F]; 7];
                 row[3][f] = 1.0;
-                let weights = densities[f - 1].three_points(i, nodes, self.length);
+                let weights = densities[f - 1].three_points(flow.frozen(), i, nodes);
                 for (shift, node) in neighbours(i, nodes).into_iter().enumerate() {
                     add(&mut row, shift, gamma * weights[shift], &self.gradient_rows[node][f]);
                 }

@@ -1,0 +1,88 @@
+//! From a gradient to forces, velocities and rates: the operator −𝓚. See `THEORY.md`, eq. (F6).
+
+use crate::flow::curve_fields::CurveFields;
+use crate::flow::density_mobility::DensityMobility;
+use crate::flow::flow_map::FlowMap;
+use crate::flow::graded_energy::add_spectrum;
+use crate::flow::intrinsic_gradient::IntrinsicGradient;
+use crate::flow::normal_mobility::{MobilityError, NormalMobility};
+use crate::geometry::{Complex64, Layout, SpectralLayout};
+
+/// The fields of one state, and the normal mobility there.
+#[derive(Debug)]
+pub struct Place {
+    pub fields: CurveFields,
+    pub mobility: Box<dyn NormalMobility>,
+    /// Why the mobility is not defined there.
+    pub fault: Option<MobilityError>,
+}
+
+impl Place {
+    /// Prepares the mobility at the fields.
+    pub fn set_mobility(&mut self) {
+        self.fault = self.mobility.set(&self.fields).err();
+    }
+
+    /// V = 𝓑f, NaN where the mobility is not defined.
+    pub fn drive(&mut self, force: &[f64], velocity: &mut [f64]) {
+        if self.fault.is_some() {
+            velocity.fill(f64::NAN);
+        } else {
+            self.mobility.apply(&self.fields, force, velocity);
+        }
+    }
+}
+
+/// A gradient, and what the flow makes of it at a [`Place`]; with all that this takes.
+#[derive(Debug)]
+pub struct Descent {
+    pub layout: Layout,
+    pub map: FlowMap,
+    pub density_mobilities: Vec<Box<dyn DensityMobility>>,
+    pub gradient: IntrinsicGradient,
+    pub force: Vec<f64>,
+    pub velocity: Vec<f64>,
+    pub spectrum: Vec<Complex64>,
+}
+
+impl Descent {
+    /// Force of the gradient at hand.
+    pub fn set_force(&mut self, at: &CurveFields) {
+        self.map.force(at, &self.gradient.spectra, self.gradient.by_length, &mut self.force);
+    }
+
+    /// Force and normal velocity of the gradient at hand.
+    pub fn descend(&mut self, place: &mut Place) {
+        self.set_force(&place.fields);
+        place.drive(&self.force, &mut self.velocity);
+    }
+
+    /// ⟨f, 𝓑f⟩ of the force and the velocity at hand.
+    pub fn curve_dissipation(&self, at: &CurveFields) -> f64 {
+        at.length() * at.mean_of_product(&self.force, &self.velocity)
+    }
+
+    /// `sum` + ⟨∂_ρ𝓕, 𝓖∂_ρ𝓕⟩ of the gradient at hand.
+    pub fn add_density_dissipation(&mut self, at: &CurveFields, mut sum: f64) -> f64 {
+        for (density, mobility) in self.density_mobilities.iter_mut().enumerate() {
+            let mu = &self.gradient.spectra[self.layout.spectrum(density + 1)];
+            mobility.apply(at, mu, &mut self.spectrum);
+            sum += at.length() * self.map.mean_product(mu, &self.spectrum);
+        }
+        sum
+    }
+
+    /// Rates of the velocity and of the gradient at hand.
+    pub fn write_rates(&mut self, at: &CurveFields, out: &mut [f64]) {
+        let layout = SpectralLayout::new(self.layout);
+        let rates = layout.spectra_mut(out);
+        let length_rate = self.map.rates_at_hand(at, &self.velocity, rates);
+        for (density, mobility) in self.density_mobilities.iter_mut().enumerate() {
+            let range = layout.spectrum(density + 1);
+            mobility.apply(at, &self.gradient.spectra[range.clone()], &mut self.spectrum);
+            add_spectrum(&mut rates[range], -at.length(), &self.spectrum);
+        }
+        self.map.grid_mut().make_real(rates);
+        out[layout.length_index()] = length_rate;
+    }
+}
