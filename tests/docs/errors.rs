@@ -71,7 +71,7 @@ fn every_kind_of_error_is_on_the_page() {
 
 #[test]
 fn every_exit_code_is_on_the_page() {
-    let main = fs::read_to_string(root().join("crates/flow-cli/src/main.rs")).unwrap();
+    let main = fs::read_to_string(root().join("crates/flow-cli/src/lib.rs")).unwrap();
     let map = &main[main.find("fn exit_code").unwrap()..];
     let map = &map[..map.find("\n}").unwrap()];
     let codes: Vec<u8> = map

@@ -199,3 +199,29 @@ fn a_curve_that_comes_free_of_itself_is_not_in_contact() {
     assert_eq!((record.frames[0].crossings, last(&record).crossings), (2.0, 0.0));
     assert_eq!(record.stop_reason, StopReason::EndTime);
 }
+
+/// Without its tension in the implicit operator such a flow is stepped as if explicitly: thousands of steps, or no end at all.
+#[test]
+fn tension_is_implicit_beside_positions() {
+    for (shape, beside) in [
+        ("'ellipse', semi_axes = [3.0, 1.0]", "area = { penalty = 10.0, target_ratio = 1.0 }"),
+        ("'trillium'", "area = { penalty = 10.0, target_ratio = 1.0 }"),
+        ("'trillium'", "adhesion.kernel = '(1 - q/0.25)*exp(-q/0.25)'"),
+    ] {
+        for tolerance in ["1e-2", "1e-3", "1e-4"] {
+            let record = run(&scene(&format!(
+                "
+                curve = {{ shape = {shape} }}
+                energy = {{ length.tension = 1.0, {beside} }}
+                time = {{ end = 0.3, stop_at_equilibrium = false, max_steps = 300 }}
+                accuracy.tolerance = {tolerance}
+                output.frames = 1
+                "
+            )));
+            let steps = record.counters.steps;
+            println!("{shape}, {beside}, {tolerance}: {steps} steps");
+            assert_eq!(record.stop_reason, StopReason::EndTime, "{shape}, {beside}, {tolerance}");
+            assert!(steps < 100, "{shape}, {beside}, {tolerance}: {steps} steps");
+        }
+    }
+}

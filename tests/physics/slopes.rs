@@ -154,3 +154,37 @@ fn powers_of_a_field_and_a_slope_stay_together() {
         assert!((end / energy - 1.0).abs() < 1e-3, "{expression}: {end}");
     }
 }
+
+/// What stands beside slopes in an expression is in the preconditioners as that of terms of its own.
+#[test]
+fn a_well_beside_slopes_takes_the_iterations_of_a_term() {
+    for (gauge, mobility) in [
+        ("scaled-arc-length", "identity"),
+        ("graded", "identity"),
+        ("co-moving", "identity"),
+        ("scaled-arc-length", "surface-diffusion"),
+    ] {
+        let iterations = |energies: &str| {
+            let record = run(&scene(&format!(
+                "
+                curve = {{ shape = 'ellipse', semi_axes = [2.0, 1.5] }}
+                density = [{{ name = 'c', initial = '0.1 + 0.8*cos(6*pi*s) + 0.1*sin(2*pi*s)', mobility = 'diffusion' }}]
+                energy.length = {{ penalty = 10.0, target_ratio = 1.0 }}
+                flow = {{ gauge = '{gauge}', normal_mobility = '{mobility}' }}
+                time = {{ end = 0.1, max_steps = 300, stop_at_equilibrium = false }}
+                accuracy = {{ tolerance = 1e-4, nodes = 128 }}
+                {energies}
+                "
+            )));
+            assert_eq!(record.stop_reason, StopReason::EndTime, "{gauge}, {mobility}: {energies}");
+            record.counters.krylov_iterations as f64
+        };
+        let local = iterations("energy.local.expression = '0.5*kappa^2 + 0.025*c_sigma^2 + 5*(c^2-1)^2'");
+        let terms = iterations(
+            "energy.local.expression = '0.5*kappa^2 + 0.025*c_sigma^2'
+             energy.packing = { matrix = [[1.0]], epsilon = 0.1 }",
+        );
+        println!("{gauge}, {mobility}: {local} and {terms} iterations");
+        assert!(local < 1.6 * terms, "{gauge}, {mobility}: {local} and {terms} iterations");
+    }
+}

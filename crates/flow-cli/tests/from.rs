@@ -1,37 +1,15 @@
 //! A result file makes its result again.
 #![allow(clippy::unwrap_used)] // a failed test may panic
 
+mod folder;
+
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
 
 use flow_core::output::hdf5_file;
 use flow_core::run::{Record, Seconds};
 
-/// A folder that is removed at the end of the test.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("curveflow-{name}-{}", std::process::id()));
-        fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-
-    fn read(&self, name: &str) -> Record {
-        hdf5_file::read(&self.0.join(name)).unwrap()
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
-}
-
-fn curveflow(folder: &Path, args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_curveflow")).args(args).current_dir(folder).output().unwrap()
-}
+use folder::Folder;
 
 #[track_caller]
 fn succeeds(output: &Output) -> String {
@@ -49,25 +27,31 @@ fn timeless(mut record: Record) -> Record {
 
 #[test]
 fn the_same_scene_with_the_same_changes_gives_the_same_record() {
-    let folder = Folder::new("from");
+    let folder = Folder::empty("from");
     let changes =
         ["--set", "accuracy.nodes=128", "--set", "time.end=0.02", "--set", "title='As \"changed\"'"];
-    succeeds(&curveflow(&folder.0, &[&["run", "three_fold", "-o", "first.h5"][..], &changes].concat()));
-    let talk = succeeds(&curveflow(&folder.0, &["run", "--from", "first.h5", "-o", "second.h5", "-q"]));
+    succeeds(&folder.call(&[&["run", "three_fold", "-o", "first.h5"][..], &changes].concat()));
+    let talk = succeeds(&folder.call(&["run", "--from", "first.h5", "-o", "second.h5", "-q"]));
     assert_eq!(talk, "");
-    let (first, second) = (folder.read("first.h5"), folder.read("second.h5"));
+    let (first, second) = (folder.record("first.h5"), folder.record("second.h5"));
     assert!(first.scene.contains("128") && first.title.contains("changed"));
     assert_eq!(timeless(first), timeless(second));
-    succeeds(&curveflow(
-        &folder.0,
-        &["run", "--from", "first.h5", "-o", "third.h5", "-q", "--set", "accuracy.nodes=96"],
-    ));
-    assert_eq!(folder.read("third.h5").nodes(), 96);
+    succeeds(&folder.call(&[
+        "run",
+        "--from",
+        "first.h5",
+        "-o",
+        "third.h5",
+        "-q",
+        "--set",
+        "accuracy.nodes=96",
+    ]));
+    assert_eq!(folder.record("third.h5").nodes(), 96);
 }
 
 #[test]
 fn points_of_another_file_are_not_needed_again() {
-    let folder = Folder::new("from-points");
+    let folder = Folder::empty("from-points");
     let points: Vec<String> = (0..40)
         .map(|i| std::f64::consts::TAU * f64::from(i) / 40.0)
         .map(|phi| format!("{:?} {:?}", 1.5 * phi.cos(), phi.sin()))
@@ -76,18 +60,18 @@ fn points_of_another_file_are_not_needed_again() {
     let scene =
         "curve = { shape = 'points', file = 'points.txt' }\nenergy.bending.rigidity = 1.0\ntime.end = 0.01\n";
     fs::write(folder.0.join("scene.toml"), scene).unwrap();
-    succeeds(&curveflow(&folder.0, &["run", "scene.toml", "-o", "first.h5"]));
+    succeeds(&folder.call(&["run", "scene.toml", "-o", "first.h5"]));
     fs::remove_file(folder.0.join("points.txt")).unwrap();
-    succeeds(&curveflow(&folder.0, &["run", "--from", "first.h5", "-o", "second.h5"]));
-    let (first, second) = (folder.read("first.h5"), folder.read("second.h5"));
+    succeeds(&folder.call(&["run", "--from", "first.h5", "-o", "second.h5"]));
+    let (first, second) = (folder.record("first.h5"), folder.record("second.h5"));
     assert_eq!((first.frames, first.steps), (second.frames, second.steps));
 }
 
 #[test]
 fn what_it_takes_is_said() {
-    let folder = Folder::new("from-usage");
+    let folder = Folder::empty("from-usage");
     let fails = |args: &[&str]| {
-        let output = curveflow(&folder.0, args);
+        let output = folder.call(args);
         (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
     };
     let (code, talk) = fails(&["run"]);
@@ -100,16 +84,13 @@ fn what_it_takes_is_said() {
 
 #[test]
 fn another_program_is_named() {
-    let folder = Folder::new("from-another");
-    succeeds(&curveflow(
-        &folder.0,
-        &["run", "circle", "-o", "first.h5", "-q", "--set", "accuracy.tolerance=1e-3"],
-    ));
-    let mut record = folder.read("first.h5");
+    let folder = Folder::empty("from-another");
+    succeeds(&folder.call(&["run", "circle", "-o", "first.h5", "-q", "--set", "accuracy.tolerance=1e-3"]));
+    let mut record = folder.record("first.h5");
     record.provenance.version = "0.0.9".to_owned();
     hdf5_file::write(&record, &folder.0.join("old.h5"), false).unwrap();
-    let talk = succeeds(&curveflow(&folder.0, &["run", "--from", "old.h5", "-o", "new.h5", "-q"]));
+    let talk = succeeds(&folder.call(&["run", "--from", "old.h5", "-o", "new.h5", "-q"]));
     assert!(talk.contains("the result was made by Curveflow 0.0.9"), "{talk}");
-    let info = curveflow(&folder.0, &["info", "old.h5", "--json"]);
+    let info = folder.call(&["info", "old.h5", "--json"]);
     assert!(String::from_utf8_lossy(&info.stdout).contains("\"curveflow_version\": \"0.0.9\""));
 }

@@ -1,11 +1,13 @@
 //! What `info` says of where the time went.
 #![allow(clippy::unwrap_used)] // a failed test may panic
 
+mod folder;
+
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use serde_json::Value;
+
+use folder::Folder;
 
 const CIRCLE: &str = "
 curve = { shape = 'circle', radius = 1.0 }
@@ -15,18 +17,8 @@ accuracy = { tolerance = 1e-3, nodes = 32 }
 output.frames = 2
 ";
 
-/// A folder with a scene and its result, removed at the end of the test.
-struct Folder(PathBuf);
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
-}
-
-fn said(folder: &Path, args: &[&str]) -> String {
-    let output =
-        Command::new(env!("CARGO_BIN_EXE_curveflow")).args(args).current_dir(folder).output().unwrap();
+fn said(folder: &Folder, args: &[&str]) -> String {
+    let output = folder.call(args);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8(output.stdout).unwrap()
 }
@@ -37,20 +29,18 @@ fn sum(seconds: &Value) -> f64 {
 
 #[test]
 fn info_tells_where_the_time_went() {
-    let path = std::env::temp_dir().join(format!("curveflow-info-{}", std::process::id()));
-    let folder = Folder(path);
-    fs::create_dir_all(&folder.0).unwrap();
+    let folder = Folder::empty("info");
     fs::write(folder.0.join("circle.toml"), CIRCLE).unwrap();
-    let run: Value = serde_json::from_str(&said(&folder.0, &["run", "circle.toml", "--json"])).unwrap();
+    let run: Value = serde_json::from_str(&said(&folder, &["run", "circle.toml", "--json"])).unwrap();
 
-    let text = said(&folder.0, &["info", "circle.h5"]);
+    let text = said(&folder, &["info", "circle.h5"]);
     for part in
         ["try: ", "energy.bending", "energy.length", "output", "rejected: ", "Krylov iterations per solve"]
     {
         assert!(text.contains(part), "{part} is not in\n{text}");
     }
 
-    let info: Value = serde_json::from_str(&said(&folder.0, &["info", "circle.h5", "--json"])).unwrap();
+    let info: Value = serde_json::from_str(&said(&folder, &["info", "circle.h5", "--json"])).unwrap();
     let total = info["seconds_total"].as_f64().unwrap();
     assert!(total > 0.0 && (sum(&info["seconds"]) - total).abs() < 1e-9 * total);
     assert!(info["evaluation_seconds"]["bending"].is_number());

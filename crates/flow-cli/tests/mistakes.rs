@@ -12,38 +12,27 @@
 #![allow(clippy::unwrap_used)] // a failed test may panic
 #![cfg(target_os = "linux")] // the reasons that the system gives are its own words
 
+mod folder;
+
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use folder::Folder;
+
 /// Fewer have been lost.
 const LEAST_MISTAKES: usize = 100;
 
-/// A fresh folder, removed at the end of a transcript.
-struct Folder(PathBuf);
-
 impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("curveflow-mistakes-{name}-{}", std::process::id()));
-        fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-
     /// What `command` prints on both streams, and its exit code.
-    fn call(&self, command: &str) -> (String, i32) {
+    fn transcript(&self, command: &str) -> (String, i32) {
         let program = Path::new(env!("CARGO_BIN_EXE_curveflow")).parent().unwrap();
         let path = format!("{}:{}", program.display(), std::env::var("PATH").unwrap());
         let mut shell = Command::new("sh");
         shell.args(["-c", &format!("exec 2>&1\n{command}")]).env("PATH", path).env("LC_ALL", "C");
         let output = shell.current_dir(&self.0).stdin(Stdio::null()).output().unwrap();
         (String::from_utf8(output.stdout).unwrap(), output.status.code().unwrap())
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
     }
 }
 
@@ -73,7 +62,7 @@ impl Replayed {
                 assert_eq!(content.matches(&old).count(), 1, "`{old}` must stand once in {name}");
                 fs::write(folder.0.join(name), content.replace(&old, &body) + "\n").unwrap();
             } else if let Some(command) = head.strip_prefix("$ ") {
-                let (output, code) = folder.call(command);
+                let (output, code) = folder.transcript(command);
                 output.trim_end().clone_into(&mut body);
                 printed = Some(code);
             } else if head.starts_with("exit ") {
@@ -123,7 +112,7 @@ fn every_mistake_is_answered_as_reviewed() {
     for path in transcripts() {
         let name = path.file_stem().unwrap().to_str().unwrap();
         let text = fs::read_to_string(&path).unwrap();
-        let replayed = Replayed::of(&text, &Folder::new(name));
+        let replayed = Replayed::of(&text, &Folder::empty(name));
         if replayed.text != text {
             failures.push(format!("{name}\n{}", difference(&text, &replayed.text)));
             if renew {

@@ -1,40 +1,21 @@
 //! The command `tradeoff`: what it prints, what it draws, and how it ends.
 #![allow(clippy::unwrap_used)] // a failed test may panic
 
-use std::fs;
+mod folder;
+
 #[cfg(unix)]
 use std::io::{BufRead, BufReader};
-use std::path::PathBuf;
 #[cfg(unix)]
 use std::process::Stdio;
 use std::process::{Command, Output};
 
 use serde_json::Value;
 
-/// A folder of its own for each test, gone afterwards.
-struct Folder(PathBuf);
+use folder::Folder;
 
 impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("curveflow-tradeoff-{name}-{}", std::process::id()));
-        fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-
     fn tradeoff(&self, arguments: &[&str]) -> Output {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_curveflow"));
-        command.arg("tradeoff").args(arguments).current_dir(&self.0).output().unwrap()
-    }
-
-    fn files(&self) -> Vec<String> {
-        let entries = fs::read_dir(&self.0).unwrap();
-        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        fs::remove_dir_all(&self.0).unwrap();
+        self.call(&[&["tradeoff"], arguments].concat())
     }
 }
 
@@ -51,7 +32,7 @@ fn refused(output: &Output) -> (i32, String) {
 
 #[test]
 fn the_table_goes_to_stdout_and_the_picture_beside_the_scene() {
-    let folder = Folder::new("table");
+    let folder = Folder::empty("table");
     let output = folder.tradeoff(&["circle", "--tolerances", "1e-5,1e-2,1e-3", "--error", "2e-5"]);
     assert!(output.status.success(), "{output:?}");
     let (table, talk) = (stdout(&output), String::from_utf8_lossy(&output.stderr).into_owned());
@@ -59,14 +40,14 @@ fn the_table_goes_to_stdout_and_the_picture_beside_the_scene() {
     assert_eq!(first, ["asked", "1e-2", "1e-3", "1e-5", "cheapest"]);
     assert!(table.contains("cheapest for 2e-5: accuracy.tolerance = 1e-5 with 32 nodes"), "{table}");
     assert!(talk.contains("run 3 of 3, at tolerance 1e-5") && talk.contains("errors in time only"), "{talk}");
-    assert_eq!(folder.files(), ["circle_tradeoff.png"]);
+    assert_eq!(folder.names(), ["circle_tradeoff.png"]);
     let (code, error) = refused(&folder.tradeoff(&["circle"]));
     assert!(code == 5 && error.contains("circle_tradeoff.png: already exists"), "{code}: {error}");
 }
 
 #[test]
 fn json_holds_the_errors_at_both_times() {
-    let folder = Folder::new("json");
+    let folder = Folder::empty("json");
     let arguments = ["circle", "--tolerances", "1e-3", "--reference-nodes", "128", "--json", "-q"];
     let output = folder.tradeoff(&[&arguments[..], &["-o", "figure.svg", "--error", "0.1"]].concat());
     assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
@@ -81,12 +62,12 @@ fn json_holds_the_errors_at_both_times() {
     let all = [halfway, end].map(|errors| errors.as_object().unwrap().values());
     let largest = all.into_iter().flatten().map(|error| error.as_f64().unwrap()).fold(0.0, f64::max);
     assert_eq!(row["error"], largest);
-    assert_eq!(folder.files(), ["figure.svg"]);
+    assert_eq!(folder.names(), ["figure.svg"]);
 }
 
 #[test]
 fn a_bad_list_of_tolerances_says_why() {
-    let folder = Folder::new("list");
+    let folder = Folder::empty("list");
     for (list, words) in [
         ("1e-3,1e-12", "tolerance 1e-12, number 2 of the list, must be between 1e-10"),
         ("1e-3,0.001", "tolerance 1e-3 is in the list twice"),
@@ -106,12 +87,12 @@ fn a_bad_list_of_tolerances_says_why() {
         let (code, error) = refused(&folder.tradeoff(&[&["circle", "-q"], arguments].concat()));
         assert!(code == 2 && error.contains(words), "{code}: {error}");
     }
-    assert!(folder.files().is_empty());
+    assert!(folder.names().is_empty());
 }
 
 #[test]
 fn scenes_and_runs_that_fail_have_their_exit_codes() {
-    let folder = Folder::new("failures");
+    let folder = Folder::empty("failures");
     let (code, error) = refused(&folder.tradeoff(&["circle", "--set", "accuracy.tolerance=2"]));
     assert!(code == 3 && error.contains("accuracy.tolerance"), "{code}: {error}");
     let (code, error) = refused(&folder.tradeoff(&["circle", "-q", "--set", "time.max_steps=3"]));
@@ -126,7 +107,7 @@ fn scenes_and_runs_that_fail_have_their_exit_codes() {
 #[cfg(unix)]
 #[test]
 fn a_signal_keeps_the_runs_that_are_complete() {
-    let folder = Folder::new("signal");
+    let folder = Folder::empty("signal");
     let mut child = Command::new(env!("CARGO_BIN_EXE_curveflow"))
         .args(["tradeoff", "three_fold_sharp", "--tolerances", "1e-2,1e-9"])
         .current_dir(&folder.0)
@@ -144,5 +125,5 @@ fn a_signal_keeps_the_runs_that_are_complete() {
     assert_eq!(last, "error: stopped by a signal after 1 of the runs; try fewer tolerances, or looser ones");
     let table = stdout(&output);
     assert!(table.lines().nth(2).unwrap().contains("interrupted before the run was complete"), "{table}");
-    assert_eq!(folder.files(), ["three_fold_sharp_tradeoff.png"]);
+    assert_eq!(folder.names(), ["three_fold_sharp_tradeoff.png"]);
 }

@@ -1,40 +1,28 @@
 //! The two files of a run that is saved on the way take turns, in one process and over several.
 #![allow(clippy::unwrap_used)] // a failed test may panic
 
+mod folder;
+
 use std::fs;
 use std::ops::ControlFlow;
-use std::path::PathBuf;
 use std::time::Duration;
 
 use flow_core::output::checkpoint::{Pair, Saving, read, run_saving};
 use flow_core::run::{Observer, Progress, Quiet, Scene, Simulation, Spending};
 
-/// A fresh folder, removed at the end of the test.
-struct Folder(PathBuf);
+use folder::Folder;
 
 impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("curveflow-pair-{name}-{}", std::process::id()));
-        fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-
     fn pair(&self) -> Pair {
-        Pair::beside(&self.0.join("out.h5"))
+        Pair::beside(&self.file("out.h5"))
     }
 
     /// Steps of the checkpoints that are there, in increasing order.
     fn steps(&self) -> Vec<u64> {
-        let files = fs::read_dir(&self.0).unwrap().map(|entry| entry.unwrap().path());
+        let files = fs::read_dir(self.path()).unwrap().map(|entry| entry.unwrap().path());
         let mut steps: Vec<u64> = files.map(|path| read(&path).unwrap().memory.steps()).collect();
         steps.sort_unstable();
         steps
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
     }
 }
 

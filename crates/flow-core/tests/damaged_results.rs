@@ -3,14 +3,17 @@
 #![allow(clippy::unwrap_used)] // a failed test may panic
 #![cfg(feature = "hdf5")]
 
+mod folder;
 mod synthetic;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use flow_core::output::{StorageError, hdf5_file};
 use flow_core::run::Record;
 use hdf5_metno::{Extent, File};
+
+use folder::Folder;
 
 /// Damages of each kind, unless the variable of this name asks for more, or for others.
 const TRIALS: u64 = 600;
@@ -19,20 +22,6 @@ const TRIALS_NAME: &str = "CURVEFLOW_TRIALS";
 const PAGE: usize = 4096;
 
 /// A file of its own, removed at the end of the test.
-struct Scratch(PathBuf);
-
-impl Scratch {
-    fn new(name: &str) -> Self {
-        Self(std::env::temp_dir().join(format!("curveflow-{name}-{}.h5", std::process::id())))
-    }
-}
-
-impl Drop for Scratch {
-    fn drop(&mut self) {
-        let _ = fs::remove_file(&self.0);
-    }
-}
-
 /// Numbers without a pattern, the same in each run: `SplitMix64`.
 struct Chance(u64);
 
@@ -111,7 +100,8 @@ fn refused(path: &Path, record: &Record, damage: &str) -> bool {
 
 #[test]
 fn chance_never_makes_wrong_data() {
-    let scratch = Scratch::new("damaged");
+    let folder = Folder::new("damaged");
+    let path = folder.file("damaged.h5");
     let record = synthetic::record(4, 64, &["protein"]);
     let whole = hdf5_file::to_bytes(&record).unwrap();
     let trials = std::env::var(TRIALS_NAME).map_or(TRIALS, |trials| trials.parse().unwrap());
@@ -121,8 +111,8 @@ fn chance_never_makes_wrong_data() {
         for _ in 0..trials {
             let mut bytes = whole.clone();
             apply(&mut bytes, &mut chance);
-            fs::write(&scratch.0, &bytes).unwrap();
-            count += u64::from(refused(&scratch.0, &record, damage));
+            fs::write(&path, &bytes).unwrap();
+            count += u64::from(refused(&path, &record, damage));
         }
         println!("{damage}: {count} of {trials} refused, the others whole");
         if damage == "junk appended" {
@@ -136,26 +126,28 @@ fn chance_never_makes_wrong_data() {
 /// Fletcher32 finds nothing wrong with zeros.
 #[test]
 fn numbers_that_became_zero_are_noticed() {
-    let scratch = Scratch::new("zeroed");
+    let folder = Folder::new("zeroed");
+    let path = folder.file("damaged.h5");
     let record = synthetic::record(4, 64, &["protein"]);
     let mut bytes = hdf5_file::to_bytes(&record).unwrap();
     let numbers = record.frames.iter().flat_map(|frame| &frame.metric);
     let chunk: Vec<u8> = numbers.flat_map(|number| number.to_le_bytes()).collect();
     let start = bytes.windows(chunk.len()).position(|window| window == chunk).unwrap();
     bytes[start..start + chunk.len() + 4].fill(0);
-    fs::write(&scratch.0, &bytes).unwrap();
-    let error = hdf5_file::read(&scratch.0).unwrap_err();
+    fs::write(&path, &bytes).unwrap();
+    let error = hdf5_file::read(&path).unwrap_err();
     assert!(error.to_string().contains("damaged at its numbers"), "{error}");
 }
 
 /// The error of a whole file that `change` has changed.
 fn hostile(name: &str, change: impl FnOnce(&File)) -> (String, String) {
-    let scratch = Scratch::new(name);
-    hdf5_file::write(&synthetic::record(4, 64, &["protein"]), &scratch.0, true).unwrap();
-    let file = File::open_rw(&scratch.0).unwrap();
+    let folder = Folder::new(name);
+    let path = folder.file("damaged.h5");
+    hdf5_file::write(&synthetic::record(4, 64, &["protein"]), &path, true).unwrap();
+    let file = File::open_rw(&path).unwrap();
     change(&file);
     file.close().unwrap();
-    match hdf5_file::read(&scratch.0).unwrap_err() {
+    match hdf5_file::read(&path).unwrap_err() {
         StorageError::Damaged { item, source, .. } => (item, source.to_string()),
         other => panic!("{other}"),
     }

@@ -1,6 +1,7 @@
 //! Pages for the browser: nothing in a record can break out of its place, and odd records are shown.
 #![allow(clippy::unwrap_used)] // a failed test may panic
 
+mod folder;
 mod synthetic;
 
 use std::fs;
@@ -9,6 +10,8 @@ use std::path::PathBuf;
 use flow_core::output::StorageError;
 use flow_core::output::page::{PageError, html, view};
 use flow_core::run::{Record, StepLog, StopReason};
+
+use folder::Folder;
 
 /// Everything that has ended a text before its time.
 const HOSTILE: &str =
@@ -189,13 +192,13 @@ fn a_frame_takes_as_many_bytes_as_stated() {
 
 #[test]
 fn a_page_has_its_name_and_rectangular_frames() {
-    let path = std::env::temp_dir().join(format!("curveflow-page-{}.html", std::process::id()));
+    let folder = Folder::new("page");
+    let path = folder.file("page.html");
     let mut record = synthetic::record(3, 16, &["protein"]);
     assert!(matches!(view(&record, &path.with_extension("h5"), true), Err(PageError::Format { .. })));
     view(&record, &path, false).unwrap();
     let again = view(&record, &path, false);
     let written = fs::read_to_string(&path).unwrap();
-    fs::remove_file(&path).unwrap();
     assert!(matches!(again, Err(PageError::Storage(StorageError::Exists { .. }))));
     assert_eq!(written, html(&record).unwrap());
     record.frames[1].density[0].pop();

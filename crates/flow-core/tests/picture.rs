@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)] // a failed test may panic
 #![cfg(feature = "picture")]
 
+mod folder;
 mod synthetic;
 
 use std::fs;
@@ -11,10 +12,13 @@ use flow_core::output::picture::{NodalLines, Options, PictureError, check_name, 
 use flow_core::run::tradeoff::{Ending, Errors, Reference, Row, RunError, Rung, Span, Tradeoff};
 use flow_core::run::{Record, StepLog};
 
+use folder::Folder;
+
 /// Draws `record` as SVG and PNG; returns the SVG. The files stay if `CURVEFLOW_KEEP_FIGURES` names a folder.
 fn draw(record: &Record, name: &str) -> String {
     let keep = std::env::var_os("CURVEFLOW_KEEP_FIGURES").map(PathBuf::from);
-    let folder = keep.clone().unwrap_or_else(std::env::temp_dir);
+    let own = Folder::new(name);
+    let folder = keep.as_deref().unwrap_or(own.path());
     let rho = (0..=100).map(|i| 0.01 * f64::from(i));
     let kappa = (0..=200).map(|i| -4.0 + 0.04 * f64::from(i));
     let bump =
@@ -25,16 +29,12 @@ fn draw(record: &Record, name: &str) -> String {
         high: kappa.map(|kappa| (bump(0.8, 0.18, -0.3, kappa), kappa)).collect(),
     });
     let options = Options { replace: true, nodal_lines, ..Options::default() };
-    let path = |extension: &str| folder.join(format!("curveflow-{name}-{}.{extension}", std::process::id()));
+    let path = |extension: &str| folder.join(format!("{name}.{extension}"));
     let start = std::time::Instant::now();
     plot(record, &path("png"), &options).unwrap();
     println!("{name}: PNG in {:?}", start.elapsed());
     plot(record, &path("svg"), &options).unwrap();
     let (png, svg) = (fs::read(path("png")).unwrap(), fs::read_to_string(path("svg")).unwrap());
-    if keep.is_none() {
-        fs::remove_file(path("png")).unwrap();
-        fs::remove_file(path("svg")).unwrap();
-    }
     assert!(png.starts_with(b"\x89PNG"));
     svg
 }
@@ -191,7 +191,8 @@ fn a_constant_state_is_a_dot() {
 #[test]
 fn a_figure_needs_a_state_and_a_known_format() {
     let mut record = synthetic::record(1, 16, &[]);
-    let nowhere = std::env::temp_dir().join("curveflow.pdf");
+    let folder = Folder::new("refused");
+    let nowhere = folder.file("curveflow.pdf");
     assert!(matches!(plot(&record, &nowhere, &Options::default()), Err(PictureError::Format { .. })));
     let path = nowhere.with_extension("png");
     for width in [0, u32::MAX] {
@@ -231,11 +232,10 @@ fn ladder(densities: &[&str], seconds: f64) -> Tradeoff {
 
 /// Draws `ladder` as SVG; returns it.
 fn draw_ladder(ladder: &Tradeoff, name: &str) -> String {
-    let path = std::env::temp_dir().join(format!("curveflow-{name}-{}.svg", std::process::id()));
+    let folder = Folder::new(name);
+    let path = folder.file("ladder.svg");
     plot_tradeoff(ladder, &path, &Options { replace: true, ..Options::default() }).unwrap();
-    let svg = fs::read_to_string(&path).unwrap();
-    fs::remove_file(&path).unwrap();
-    svg
+    fs::read_to_string(&path).unwrap()
 }
 
 #[test]
@@ -263,6 +263,7 @@ fn odd_ladders_are_drawn() {
     odd.rows.truncate(1);
     assert_inside(&draw_ladder(&odd, "one-rung"));
     odd.rows.clear();
-    let path = std::env::temp_dir().join("curveflow-nothing.svg");
+    let folder = Folder::new("no-rungs");
+    let path = folder.file("ladder.svg");
     assert!(matches!(plot_tradeoff(&odd, &path, &Options::default()), Err(PictureError::NoRungs)));
 }

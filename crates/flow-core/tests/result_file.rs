@@ -2,34 +2,16 @@
 #![allow(clippy::unwrap_used)] // a failed test may panic
 #![cfg(feature = "hdf5")]
 
+mod folder;
 mod synthetic;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use flow_core::output::{StorageError, hdf5_file};
 use flow_core::run::{Record, Seconds, Spending, StepLog, StopReason};
 
-/// A fresh folder, removed at the end of the test.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("curveflow-{name}-{}", std::process::id()));
-        fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-
-    fn file(&self, name: &str) -> PathBuf {
-        self.0.join(name)
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
-}
+use folder::Folder;
 
 fn round_trip(record: &Record, path: &Path) {
     hdf5_file::write(record, path, true).unwrap();
@@ -84,7 +66,7 @@ fn nothing_is_written_where_nothing_may_be() {
     let path = folder.file("out.h5");
     fs::write(&path, "kept").unwrap();
     assert!(matches!(hdf5_file::write(&record, &path, false), Err(StorageError::Exists { .. })));
-    let missing = folder.0.join("none").join("out.h5");
+    let missing = folder.file("none").join("out.h5");
     assert!(matches!(hdf5_file::write(&record, &missing, false), Err(StorageError::FolderMissing { .. })));
     let mut ragged = record.clone();
     ragged.frames[1].curvature.pop();
@@ -93,7 +75,7 @@ fn nothing_is_written_where_nothing_may_be() {
     ragged.seconds.evaluations.terms.pop();
     assert!(matches!(hdf5_file::write(&ragged, &path, true), Err(StorageError::Ragged { .. })));
     assert_eq!(fs::read_to_string(&path).unwrap(), "kept");
-    assert_eq!(fs::read_dir(&folder.0).unwrap().count(), 1);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
 #[test]
@@ -101,7 +83,7 @@ fn foreign_files_are_named() {
     let folder = Folder::new("foreign");
     let path = folder.file("out.h5");
     assert!(matches!(hdf5_file::read(&path), Err(StorageError::System { .. })));
-    assert!(matches!(hdf5_file::read(&folder.0), Err(StorageError::NotAFile { .. })));
+    assert!(matches!(hdf5_file::read(folder.path()), Err(StorageError::NotAFile { .. })));
     for content in ["", "title = \"a scene\""] {
         fs::write(&path, content).unwrap();
         assert!(matches!(hdf5_file::read(&path), Err(StorageError::NotHdf5 { .. })));

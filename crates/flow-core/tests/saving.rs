@@ -1,6 +1,8 @@
 //! A run goes on where a checkpoint cannot be written, and what it comes to can be saved until its result is safe.
 #![allow(clippy::unwrap_used)] // a failed test may panic
 
+mod folder;
+
 use std::fs;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -10,28 +12,15 @@ use flow_core::output::StorageError;
 use flow_core::output::checkpoint::{Pair, Saving, read, run_saving};
 use flow_core::run::{Observer, Progress, Quiet, Record, Scene, Simulation, StopReason, run};
 
-/// A fresh folder, removed at the end of the test.
-struct Folder(PathBuf);
+use folder::Folder;
 
 impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("curveflow-saving-{name}-{}", std::process::id()));
-        fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-
     fn result(&self) -> PathBuf {
-        self.0.join("out.h5")
+        self.file("out.h5")
     }
 
     fn checkpoint(&self, letter: &str) -> PathBuf {
-        self.0.join(format!("out.h5.checkpoint-{letter}"))
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
+        self.file(&format!("out.h5.checkpoint-{letter}"))
     }
 }
 

@@ -1,8 +1,12 @@
 //! Scenes that are right: what they hold, what they are written back as, and how `--set` changes them.
 
+mod folder;
+
 use flow_core::run::scene::{
     Derivative, Frames, Length, LengthTarget, Nodes, NormalMobility, Scene, Shape, Spacing,
 };
+
+use folder::Folder;
 
 const SMALL: &str = "
 curve = { shape = 'circle', radius = 2 }
@@ -95,16 +99,13 @@ fn every_shape_survives_being_written_out() {
 
 #[test]
 fn points_come_from_a_file_beside_the_scene() {
-    let folder = std::env::temp_dir().join(format!("curveflow-points-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
+    let folder = Folder::new("points");
     let circle = |i: i32| (f64::from(i) * std::f64::consts::TAU / 16.0).sin_cos();
     let rows: Vec<String> = (0..=16).map(|i| circle(i % 16)).map(|(y, x)| format!("{x} {y}")).collect();
-    std::fs::write(folder.join("points.txt"), rows.join("\n")).unwrap();
+    std::fs::write(folder.file("points.txt"), rows.join("\n")).unwrap();
     let text = SMALL.replace("shape = 'circle', radius = 2", "shape = 'points', file = 'points.txt'");
-    std::fs::write(folder.join("scene.toml"), &text).unwrap();
-    let scene = Scene::read(folder.join("scene.toml"));
-    std::fs::remove_dir_all(&folder).unwrap();
-    let scene = scene.unwrap();
+    std::fs::write(folder.file("scene.toml"), &text).unwrap();
+    let scene = Scene::read(folder.file("scene.toml")).unwrap();
     let Shape::Points { points } = &scene.curve.shape else { panic!("{:?}", scene.curve) };
     assert_eq!((points.len(), points[0]), (16, [1.0, 0.0]));
     assert_same(&parse(&scene.to_toml()), &scene);

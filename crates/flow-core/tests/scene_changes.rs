@@ -1,8 +1,12 @@
 //! Scenes whose values a program has changed after they were read: what is no scene any more is refused, and what is run is
 //! what the record says.
 
+mod folder;
+
 use flow_core::run::scene::{Bending, Formula, Frames, Membrane, Nodes, Shape, Spacing};
 use flow_core::run::{Quiet, Scene, SceneError, SetupError, Simulation, evaluate, predict, run};
+
+use folder::Folder;
 
 const CIRCLE: &str = "
 # A comment that an unchanged scene keeps.
@@ -118,16 +122,13 @@ fn a_scene_that_holds_what_was_read_keeps_its_text() {
 
 #[test]
 fn points_of_a_file_stand_in_the_text_of_a_changed_scene() -> Result<(), SceneError> {
-    let folder = std::env::temp_dir().join(format!("curveflow-changes-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
+    let folder = Folder::new("changes");
     let circle = |i: i32| (f64::from(i) * std::f64::consts::TAU / 16.0).sin_cos();
     let rows: Vec<String> = (0..16).map(circle).map(|(y, x)| format!("{x} {y}")).collect();
-    std::fs::write(folder.join("points.txt"), rows.join("\n")).unwrap();
+    std::fs::write(folder.file("points.txt"), rows.join("\n")).unwrap();
     let text = CIRCLE.replace("shape = 'circle', radius = 1.0", "shape = 'points', file = 'points.txt'");
-    std::fs::write(folder.join("scene.toml"), text).unwrap();
-    let scene = Scene::read(folder.join("scene.toml"));
-    std::fs::remove_dir_all(&folder).unwrap();
-    let scene = scene?;
+    std::fs::write(folder.file("scene.toml"), text).unwrap();
+    let scene = Scene::read(folder.file("scene.toml"))?;
     assert!(!scene.holds_points());
 
     let mut changed = scene.clone();

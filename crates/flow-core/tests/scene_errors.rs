@@ -1,6 +1,10 @@
 //! Errors of scenes as data: keys, lines and kinds. The wording is pinned by the transcripts in `flow-cli/tests/mistakes`.
 
+mod folder;
+
 use flow_core::run::scene::{Fault, Place, Problem, Scene, SceneError};
+
+use folder::Folder;
 
 /// Lines: 2 title, 4 shape, 7–9 density, 12 rigidity, 15–16 penalty, 19 end, 22–23 accuracy, 26 frames.
 const GOOD: &str = r#"
@@ -159,10 +163,10 @@ fn files_that_are_no_scenes() {
     assert!(matches!(Scene::read("no/such/scene.toml"), Err(SceneError::Unreadable { .. })));
     let large = "#".repeat((1 << 20) + 1);
     assert!(matches!(Scene::parse(&large, "large"), Err(SceneError::TooLarge { .. })));
-    let file = std::env::temp_dir().join(format!("curveflow-not-text-{}.toml", std::process::id()));
+    let folder = Folder::new("not-text");
+    let file = folder.file("scene.toml");
     std::fs::write(&file, b"title = \"\xff\"").unwrap();
     let error = Scene::read(&file).unwrap_err();
-    std::fs::remove_file(&file).unwrap();
     assert!(error.to_string().contains("byte 9 is not UTF-8"), "{error}");
 }
 

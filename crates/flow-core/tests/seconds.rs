@@ -187,7 +187,8 @@ fn adhesion_has_advice_of_its_own() {
         scene.accuracy.linear_solver = LinearSolver::Auto;
         record.resolved_scene = scene.to_toml();
         record.energy_terms = vec![dear.to_owned()];
-        record.seconds = Seconds { right_hand_sides: 1.0, ..Seconds::default() };
+        record.seconds = Seconds::default();
+        record.seconds[Spending::Step(Activity::RightHandSide)] = 1.0;
         record.seconds.evaluations.terms = vec![0.9];
         record.counters.krylov_iterations = 0;
         let of_the_term = WhySlow::of(&record).advice;

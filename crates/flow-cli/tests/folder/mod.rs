@@ -10,16 +10,22 @@ use std::time::Duration;
 use flow_core::output::hdf5_file;
 use flow_core::run::Record;
 
-/// A fresh folder with the scene `three_fold` as `scene.toml`, removed at the end of the test.
+/// A fresh folder, removed at the end of the test.
 pub struct Folder(pub PathBuf);
 
 impl Folder {
+    /// With the scene `three_fold` as `scene.toml`.
     pub fn new(name: &str) -> Self {
+        let folder = Self::empty(name);
+        let shipped = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/three_fold.toml");
+        fs::copy(shipped, folder.0.join("scene.toml")).unwrap();
+        folder
+    }
+
+    pub fn empty(name: &str) -> Self {
         let path = std::env::temp_dir().join(format!("curveflow-{name}-{}", std::process::id()));
         let _ = fs::remove_dir_all(&path);
         fs::create_dir_all(&path).unwrap();
-        let shipped = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/three_fold.toml");
-        fs::copy(shipped, path.join("scene.toml")).unwrap();
         Self(path)
     }
 

@@ -123,6 +123,12 @@ pub trait EnergyTerm: Debug + Send + Sync {
         false
     }
 
+    /// Whether the part that depends on positions is a cost of length as well: of waves longer than the range of a kernel a pair
+    /// energy E makes the tension E/|Γ|, of shorter ones twice as much; pressure makes none.
+    fn is_line_energy(&self) -> bool {
+        false
+    }
+
     /// Largest distance of nodes on which the sums of [`EnergyTerm::add_shape_energy`] on a curve of length `length` are off by the
     /// part `error` at most; infinite if they do not ask for any.
     fn largest_spacing(&self, _length: f64, _error: f64) -> f64 {

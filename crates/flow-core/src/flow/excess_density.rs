@@ -36,13 +36,12 @@ impl GradientFlow {
         helmholtz.set(self.current().grading(), kappa, length)?;
         let (mut density, mut flux) = (vec![0.0; nodes], vec![0.0; nodes]);
         helmholtz.solve(&right, &mut density);
-        let (grid, derivative) = self.grid_and_derivative();
-        let mut spectrum = vec![Complex64::default(); grid.modes()];
-        grid.transform(&density, &mut spectrum);
-        for (value, symbol) in spectrum.iter_mut().zip(derivative.to_flux()) {
+        let mut spectrum = vec![Complex64::default(); self.layout().modes()];
+        self.grid_mut().transform(&density, &mut spectrum);
+        for (value, symbol) in spectrum.iter_mut().zip(self.derivative().to_flux()) {
             *value *= -symbol / length;
         }
-        grid.synthesise(&spectrum, &mut flux);
+        self.grid_mut().synthesise(&spectrum, &mut flux);
         if let Some(grading) = self.current().grading() {
             multiply(&mut flux, grading.inverse_at_midpoints());
         }

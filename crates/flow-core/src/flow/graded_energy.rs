@@ -19,9 +19,12 @@ pub struct GradedEnergy {
 }
 
 impl GradedEnergy {
-    /// For states of `layout`; none if the nodes are uniform.
+    /// For states of `layout`; none if the nodes are uniform or their metric moves.
     #[must_use]
     pub fn of(layout: Layout, grid: &PeriodicGrid, derivative: &Derivative) -> Option<Self> {
+        if layout.metric().is_some() {
+            return None;
+        }
         Some(Self {
             layout,
             grid: grid.clone(),

@@ -11,3 +11,11 @@ pub struct IntrinsicGradient {
     /// ∂𝓕/∂|Γ| at fixed K and m, in energy per length; zero if the metric is a field.
     pub by_length: f64,
 }
+
+impl IntrinsicGradient {
+    /// Overwrites it by `other`, of the same size.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.spectra.copy_from_slice(&other.spectra);
+        self.by_length = other.by_length;
+    }
+}

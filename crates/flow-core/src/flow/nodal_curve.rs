@@ -264,6 +264,20 @@ mod tests {
         }
     }
 
+    /// The length is a mean over the nodes: of many of them its rounding is that of a few.
+    #[test]
+    fn many_nodes_leave_the_length_exact() {
+        let (nodes, mode) = (8192, 3.0_f64);
+        let wave: Vec<f64> = (0..nodes).map(|i| (mode * TAU * i as f64 / nodes as f64).cos()).collect();
+        let (kappa, metric) = (vec![1.0; nodes], vec![TAU; nodes]);
+        let gauge = Arc::new(ScaledArcLength);
+        let mut curve = NodalCurve::new(&kappa, &metric, &[], DerivativeFamily::Fourier, gauge).unwrap();
+        let u = curve.helmholtz(&wave).unwrap();
+        let error = u.iter().zip(&wave).map(|(u, v)| (u * (mode * mode + 1.0) - v).abs()).fold(0.0, f64::max);
+        println!("{:.1e}, {error:.1e}", curve.at.length() / TAU - 1.0);
+        assert!(error < 2e-14, "{error:.1e}");
+    }
+
     /// At scales whose squares are no numbers.
     #[test]
     fn what_overflows_is_refused() {

@@ -2,16 +2,18 @@
 
 use super::cyclic_banded::CyclicBanded;
 use super::derivative::{Derivative, DerivativeFamily};
-use super::helmholtz::{Helmholtz, HelmholtzError, LEAST_CURVATURE, REFINED_FROM, check_length, check_solve};
+use super::helmholtz::{Helmholtz, HelmholtzError, REFINED_FROM, check_curvature, check_length, check_solve};
 use crate::geometry::Grading;
-use crate::geometry::vectors::mean_of_triple_product;
+use crate::geometry::vectors::{add_scaled, mean_of_triple_product};
 
 /// H of a curve, in the metric of its nodes.
 #[derive(Clone, Debug)]
-pub enum CurveHelmholtz {
-    /// On uniform nodes.
+pub struct CurveHelmholtz(On);
+
+/// By the kind of nodes.
+#[derive(Clone, Debug)]
+enum On {
     Uniform(Box<Helmholtz>),
-    /// On graded nodes.
     Graded(Box<GradedHelmholtz>),
 }
 
@@ -23,10 +25,10 @@ impl CurveHelmholtz {
     #[must_use]
     pub fn new(derivative: &Derivative, nodes: usize) -> Self {
         match derivative.grading() {
-            None => Self::Uniform(Box::new(Helmholtz::new(derivative.family(), nodes))),
+            None => Self(On::Uniform(Box::new(Helmholtz::new(derivative.family(), nodes)))),
             Some(grading) => {
                 assert_eq!(grading.nodes(), nodes, "the derivative is graded on other nodes");
-                Self::Graded(Box::new(GradedHelmholtz::new(derivative.family(), nodes)))
+                Self(On::Graded(Box::new(GradedHelmholtz::new(derivative.family(), nodes))))
             }
         }
     }
@@ -45,9 +47,9 @@ impl CurveHelmholtz {
         curvature: &[f64],
         length: f64,
     ) -> Result<(), HelmholtzError> {
-        match (self, grading) {
-            (Self::Uniform(operator), None) => operator.set(curvature, length),
-            (Self::Graded(operator), Some(grading)) => operator.set(grading, curvature, length),
+        match (&mut self.0, grading) {
+            (On::Uniform(operator), None) => operator.set(curvature, length),
+            (On::Graded(operator), Some(grading)) => operator.set(grading, curvature, length),
             (_, grading) => panic!("H was made for other nodes than those of the grading {grading:?}"),
         }
     }
@@ -57,9 +59,9 @@ impl CurveHelmholtz {
     /// # Panics
     /// If `f` or `u` has another number of values, or no factorisation is held: before [`Self::set`], and after one that failed.
     pub fn solve(&mut self, f: &[f64], u: &mut [f64]) {
-        match self {
-            Self::Uniform(operator) => operator.solve(f, u),
-            Self::Graded(operator) => operator.solve(f, u),
+        match &mut self.0 {
+            On::Uniform(operator) => operator.solve(f, u),
+            On::Graded(operator) => operator.solve(f, u),
         }
     }
 }
@@ -69,7 +71,7 @@ const WIDTH: usize = 7;
 
 /// (S/|Γ|² + wκ²)u = wf with S = D₊ᵀ(1/w)D₊ by staggered differences.
 #[derive(Clone, Debug)]
-pub struct GradedHelmholtz {
+struct GradedHelmholtz {
     /// w at the nodes and 1/w at the midpoints.
     weight: Vec<f64>,
     inverse_at_midpoints: Vec<f64>,
@@ -107,10 +109,7 @@ impl GradedHelmholtz {
         self.weight.copy_from_slice(grading.weight());
         self.inverse_at_midpoints.copy_from_slice(grading.inverse_at_midpoints());
         let weight = &self.weight;
-        let value = length * length * mean_of_triple_product(weight, curvature, curvature);
-        if !(value >= LEAST_CURVATURE && value.is_finite()) {
-            return Err(HelmholtzError::NoCurvature { value });
-        }
+        check_curvature(length * length * mean_of_triple_product(weight, curvature, curvature))?;
         for ((square, kappa), weight) in self.square.iter_mut().zip(curvature).zip(weight) {
             *square = weight * kappa * kappa;
         }
@@ -149,9 +148,7 @@ impl GradedHelmholtz {
         if u.len() >= REFINED_FROM {
             self.write_residual(f, u);
             self.band.solve(&mut self.residual);
-            for (u, correction) in u.iter_mut().zip(&self.residual) {
-                *u += correction;
-            }
+            add_scaled(u, 1.0, &self.residual);
         }
     }
 

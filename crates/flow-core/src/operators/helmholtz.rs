@@ -10,6 +10,7 @@ use super::cyclic_banded::CyclicBanded;
 use super::derivative::DerivativeFamily;
 use super::factorisation_error::FactorisationError;
 use super::half_stencil::{add_convolution, half_stencil, pad, square, wrap};
+use crate::geometry::vectors::add_scaled;
 
 /// H has no usable inverse.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -36,7 +37,7 @@ pub(super) const REFINED_FROM: usize = 512;
 /// Half-width of the widest band, that of the staggered differences of order 8.
 const WIDEST: usize = 7;
 /// |Γ|∫κ² dσ below which H is taken for singular; 4π² is the least of a closed curve.
-pub(super) const LEAST_CURVATURE: f64 = 1.0;
+const LEAST_CURVATURE: f64 = 1.0;
 /// The root of p for staggered central differences: D₊ = δ(1 + x/24 + …), cut at the order of the family.
 const STAGGERED: [f64; 4] = [1.0, 1.0 / 24.0, 3.0 / 640.0, 5.0 / 7168.0];
 /// p and M of the compact difference of order 8, for the Fourier family; positive for all 0 ≤ x ≤ 4.
@@ -141,10 +142,7 @@ impl Helmholtz {
         for (square, kappa) in self.residual.iter_mut().zip(curvature) {
             *square = kappa * kappa;
         }
-        let value = length * length * self.residual.iter().sum::<f64>() / self.nodes as f64;
-        if !(value >= LEAST_CURVATURE && value.is_finite()) {
-            return Err(HelmholtzError::NoCurvature { value });
-        }
+        check_curvature(length * length * self.residual.iter().sum::<f64>() / self.nodes as f64)?;
         pad(&self.residual, &mut self.square);
         self.scale = (self.nodes as f64 / length).powi(2);
         self.band.assemble(&self.laplacian, self.scale, &self.mass, &self.square);
@@ -178,9 +176,7 @@ impl Helmholtz {
     fn refine(&mut self, f: &[f64], u: &mut [f64]) {
         self.write_residual(f, u);
         self.band.solve(&mut self.residual);
-        for (u, correction) in u.iter_mut().zip(&self.residual) {
-            *u += correction;
-        }
+        add_scaled(u, 1.0, &self.residual);
     }
 
     /// M(f − κ²u) − n²/L² p x u.
@@ -205,6 +201,12 @@ impl Helmholtz {
 /// Refuses what is not the length of a curve.
 pub(super) fn check_length(length: f64) -> Result<(), HelmholtzError> {
     if length > 0.0 && length.is_finite() { Ok(()) } else { Err(HelmholtzError::NoLength { length }) }
+}
+
+/// Refuses what is not |Γ|∫κ² dσ of a closed curve.
+pub(super) fn check_curvature(value: f64) -> Result<(), HelmholtzError> {
+    let is_one = value >= LEAST_CURVATURE && value.is_finite();
+    if is_one { Ok(()) } else { Err(HelmholtzError::NoCurvature { value }) }
 }
 
 /// Panics unless H is `factorised` and both sides have one value per node.

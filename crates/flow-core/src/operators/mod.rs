@@ -14,6 +14,6 @@ pub use band_factors::{LANES, Lane};
 pub use cyclic_banded::CyclicBanded;
 pub use derivative::{Derivative, DerivativeFamily};
 pub use factorisation_error::FactorisationError;
-pub use graded_helmholtz::{CurveHelmholtz, GradedHelmholtz};
+pub use graded_helmholtz::CurveHelmholtz;
 pub use graded_laplacian::GradedLaplacian;
 pub use helmholtz::{Helmholtz, HelmholtzError};

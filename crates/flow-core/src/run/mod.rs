@@ -12,7 +12,6 @@ mod evaluation;
 mod failure;
 mod floors;
 mod frame_nodes;
-mod frames;
 mod gauges;
 mod initial_state;
 mod interpolant;

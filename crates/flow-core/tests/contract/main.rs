@@ -21,6 +21,7 @@ mod regrading;
 mod rest;
 mod scalar;
 mod second_derivative;
+mod short_waves;
 mod stability;
 mod states;
 mod stiff_curvature;

@@ -107,6 +107,10 @@ impl EnergyTerm for Adhesion {
         true
     }
 
+    fn is_line_energy(&self) -> bool {
+        true
+    }
+
     fn largest_spacing(&self, length: f64, error: f64) -> f64 {
         self.kernel.largest_spacing(length, error)
     }

@@ -44,9 +44,13 @@ pub struct EnergySum {
     implicit_stiffness: Vec<f64>,
     /// Means of the mixed second derivatives by slopes, one row per field.
     cross_stiffness: Vec<f64>,
+    /// Second derivatives by pairs of fields at the nodes, with those of slopes; empty where no energy has slopes.
+    implicit_second: Vec<f64>,
     jet: Jet,
     slopes: Option<SlopeEnergy>,
     shape: Option<ShapeEnergy>,
+    /// Gradient at the linearisation without the terms that depend on positions; empty if there are none.
+    without_positions: IntrinsicGradient,
     /// ⟨|D₊φ|²⟩ of each field at the linearisation.
     frozen_slope_squares: Vec<f64>,
     motion: Vec<f64>,
@@ -68,10 +72,10 @@ impl EnergySum {
         let (nodes, fields) = (layout.nodes(), layout.fields());
         let stiffness =
             (0..fields).map(|field| terms.iter().map(|term| term.stiffness(field)).sum()).collect();
-        let slopes = terms
-            .iter()
-            .any(|term| term.has_slope_density())
-            .then(|| SlopeEnergy::new(layout, grid, derivative));
+        // A metric that moves has its own kind of these.
+        let has_slopes = terms.iter().any(|term| term.has_slope_density());
+        let slopes =
+            (layout.metric().is_none() && has_slopes).then(|| SlopeEnergy::new(layout, grid, derivative));
         let shape = terms
             .iter()
             .any(|term| term.has_shape_energy())
@@ -85,9 +89,17 @@ impl EnergySum {
             moving: MovingMetricEnergy::of(layout, grid, derivative),
             implicit_stiffness: vec![0.0; fields],
             cross_stiffness: vec![0.0; fields * fields],
+            implicit_second: vec![0.0; if has_slopes { fields * fields * nodes } else { 0 }],
             stiffness,
             jet: Jet::new(nodes, fields),
             slopes,
+            without_positions: IntrinsicGradient {
+                spectra: vec![
+                    Complex64::default();
+                    if shape.is_some() { layout.state_fields() * grid.modes() } else { 0 }
+                ],
+                by_length: 0.0,
+            },
             shape,
             frozen_slope_squares: vec![0.0; fields],
             motion: vec![0.0; nodes * fields],
@@ -154,8 +166,7 @@ impl EnergySum {
         if let Some(moving) = &mut self.moving {
             let (terms, stiffness) = (&mut self.terms, &self.stiffness);
             let energy = moving.evaluate(terms, &self.jet, stiffness, of_length, at, order, gradient);
-            let shape = self.shape.as_mut();
-            return energy + shape.map_or(0.0, |shape| shape.add_gradient(terms, at, order, gradient));
+            return energy + self.add_shape_gradient(at, order, gradient);
         }
         let mean_density = at.mean(self.jet.value());
         let mut energy = length * mean_density + of_length.value;
@@ -203,10 +214,7 @@ impl EnergySum {
             by_length -= mean_product(&self.grid, at.weighted_spectrum(field), p);
         }
         gradient.by_length = by_length;
-        if let Some(shape) = &mut self.shape {
-            energy += shape.add_gradient(&mut self.terms, at, order, gradient);
-        }
-        energy
+        energy + self.add_shape_gradient(at, order, gradient)
     }
 
     /// Second derivative times the motion `v` of the spectral state vector, at the state of the last

@@ -1,6 +1,9 @@
 //! What the energies of positions ask for, and what holds the area against them.
 
 use super::{EnergySum, ShapeEnergy};
+use crate::energies::Order;
+use crate::flow::curve_fields::CurveFields;
+use crate::flow::intrinsic_gradient::IntrinsicGradient;
 
 impl EnergySum {
     /// Whether a term depends on where the nodes lie.
@@ -28,10 +31,36 @@ impl EnergySum {
         self.shape.as_ref().map_or(0.0, ShapeEnergy::net_force)
     }
 
-    /// Makes the second derivative at the linearisation that of 𝓕 + `multiplier` × area.
-    pub fn hold_area(&mut self, multiplier: f64) {
+    /// Adds to `gradient` what the terms that depend on positions add; returns their energy.
+    pub(super) fn add_shape_gradient(
+        &mut self,
+        at: &CurveFields,
+        order: Order,
+        gradient: &mut IntrinsicGradient,
+    ) -> f64 {
+        let Some(shape) = &mut self.shape else { return 0.0 };
+        if order >= Order::Hessian {
+            self.without_positions.copy_from(gradient);
+        }
+        shape.add_gradient(&mut self.terms, at, order, gradient)
+    }
+
+    /// The gradient at the linearisation without the terms that depend on positions; empty if there are none.
+    #[must_use]
+    pub fn gradient_without_positions(&self) -> &IntrinsicGradient {
+        &self.without_positions
+    }
+
+    /// Tension at the linearisation of the terms that depend on positions and are line energies.
+    #[must_use]
+    pub fn line_tension(&self) -> f64 {
+        self.shape.as_ref().map_or(0.0, ShapeEnergy::line_tension)
+    }
+
+    /// Makes the second derivative at the linearisation that of 𝓕 + `multiplier` × area, and `gradient`, that of 𝓕 there, its gradient.
+    pub fn hold_area(&mut self, multiplier: f64, gradient: &mut IntrinsicGradient) {
         if let Some(shape) = &mut self.shape {
-            shape.hold_area(multiplier);
+            shape.hold_area(multiplier, gradient);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What slopes cost: exactly, and on the mean for the preconditioners.
+//! Second derivatives as the preconditioners take them: what slopes cost on the mean, and what fields cost at the nodes.
 
 use super::EnergySum;
 use crate::geometry::vectors::mean;
@@ -16,14 +16,14 @@ impl EnergySum {
     /// Whether slopes of `field` may have a cost: at some state, not at that of the linearisation.
     #[must_use]
     pub fn may_be_stiff(&self, field: usize) -> bool {
-        self.stiffness[field] != 0.0 || self.slopes.is_some()
+        self.stiffness[field] != 0.0 || self.terms.iter().any(|term| term.has_slope_density())
     }
 
     /// Mean over the nodes of ∂²e/∂φ² of `field` at the linearisation, zero if it is negative: a concave mean would make the
     /// preconditioners singular, and they may leave it out.
     #[must_use]
     pub fn convex_mean(&self, field: usize) -> f64 {
-        mean(self.jet.second(field, field)).max(0.0)
+        mean(self.implicit_second(field, field)).max(0.0)
     }
 
     /// [`EnergySum::stiffness`] and the mean of ∂²e′/∂(∇_sφ)² at the linearisation, unless it is negative: what the
@@ -45,8 +45,37 @@ impl EnergySum {
         std::array::from_fn(|a| std::array::from_fn(|b| self.implicit_cost(a, b)))
     }
 
-    /// Takes the means of the slopes' second derivatives at the state evaluated last.
+    /// ∂²e/∂φ∂ψ of the fields `a` and `b` at the linearisation, one value per node; of what (D6) takes between the nodes, the mean of
+    /// the flux points beside each.
+    #[must_use]
+    pub fn implicit_second(&self, a: usize, b: usize) -> &[f64] {
+        if self.implicit_second.is_empty() {
+            return self.jet.second(a, b);
+        }
+        &self.implicit_second[self.layout.field(a * self.layout.fields() + b)]
+    }
+
+    fn freeze_second(&mut self) {
+        let (fields, nodes) = (self.layout.fields(), self.layout.nodes());
+        let at_flux = match (&self.moving, &self.slopes) {
+            (Some(moving), _) => moving.flux_jet().0,
+            (None, Some(slopes)) => slopes.jet().0,
+            (None, None) => return,
+        };
+        for (pair, out) in self.implicit_second.chunks_exact_mut(nodes).enumerate() {
+            let (a, b) = (pair / fields, pair % fields);
+            let (own, between) = (self.jet.second(a, b), at_flux.second(a, b));
+            let mut before = between[nodes - 1];
+            for ((out, own), after) in out.iter_mut().zip(own).zip(between) {
+                *out = own + 0.5 * (before + after);
+                before = *after;
+            }
+        }
+    }
+
+    /// Takes the second derivatives at the state evaluated last.
     pub(super) fn freeze_stiffness(&mut self) {
+        self.freeze_second();
         let fields = self.layout.fields();
         for a in 0..fields {
             self.implicit_stiffness[a] = self.stiffness[a] + self.mean_cost(a, a).max(0.0);

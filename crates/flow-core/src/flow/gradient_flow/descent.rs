@@ -31,6 +31,15 @@ impl Place {
             self.mobility.apply(&self.fields, force, velocity);
         }
     }
+
+    /// What holds every piece of the curve, NaN where the mobility is not defined.
+    pub fn holding_tension(&mut self, force: &[f64], tension: &mut [f64]) {
+        if self.fault.is_some() {
+            tension.fill(f64::NAN);
+        } else {
+            self.mobility.holding_tension(&self.fields, force, tension);
+        }
+    }
 }
 
 /// A gradient, and what the flow makes of it at a [`Place`]; with all that this takes.

@@ -7,6 +7,7 @@ mod not_finite;
 mod part_costs;
 mod parts;
 mod slopes;
+mod tension;
 mod turning;
 
 use descent::{Descent, Place};
@@ -18,6 +19,8 @@ use super::flow_map::FlowMap;
 use super::intrinsic_gradient::IntrinsicGradient;
 use super::normal_mobility::NormalMobility;
 use crate::geometry::{Complex64, Layout};
+
+use tension::FrozenTension;
 
 pub use derivative_check::DerivativeErrors;
 pub use part_costs::{EvaluationCost, PartCosts};
@@ -71,8 +74,8 @@ pub struct GradientFlow {
     frozen: Place,
     /// Whether there is a linearisation.
     linearised: bool,
-    /// Minus the tension at the linearisation.
-    frozen_stretching: Vec<f64>,
+    /// The tension at the linearisation.
+    tension: FrozenTension,
 }
 
 impl GradientFlow {
@@ -103,13 +106,15 @@ impl GradientFlow {
             velocity: vec![0.0; layout.nodes()],
             spectrum: vec![Complex64::default(); layout.modes()],
         };
+        let held = if energy.depends_on_positions() { descent.gradient.spectra.len() } else { 0 };
+        let tension = FrozenTension::new(layout.nodes(), held);
         Self {
             energy,
             descent,
             current: Place { fields, mobility: normal_mobility, fault: None },
             frozen,
             linearised: false,
-            frozen_stretching: vec![0.0; layout.nodes()],
+            tension,
         }
     }
 
@@ -190,16 +195,15 @@ impl GradientFlow {
         self.frozen.set_mobility();
         self.linearised = true;
         self.freeze_tension();
-        self.hold_area();
     }
 
     /// Spectral rate at the state of the linearisation; call right after [`GradientFlow::spectral_linearise`].
     pub fn frozen_rate(&mut self, rate: &mut [f64]) {
         if self.energy.depends_on_positions() {
-            self.descent.descend(&mut self.frozen); // the tension is left out there
+            self.descent.descend(&mut self.frozen);
         } else {
             let Descent { map, gradient, force, .. } = &mut self.descent;
-            map.complete_force(&self.frozen.fields, &gradient.spectra, &self.frozen_stretching, force);
+            map.complete_force(&self.frozen.fields, &gradient.spectra, &self.tension.stretching, force);
             self.drive_frozen();
         }
         self.descent.write_rates(&self.frozen.fields, rate);

@@ -64,11 +64,6 @@ impl GradientFlow {
         self.descent.map.grid_mut()
     }
 
-    /// Both at once.
-    pub fn grid_and_derivative(&mut self) -> (&mut PeriodicGrid, &Derivative) {
-        self.descent.map.grid_and_derivative()
-    }
-
     /// Whether the nodes are at equal distances: neither graded nor material.
     #[must_use]
     pub fn is_equidistant(&self) -> bool {

@@ -27,11 +27,15 @@ impl Incompressible {
         }
     }
 
+    /// Component of `values` along κ.
+    fn along(&self, at: &CurveFields, values: &[f64]) -> f64 {
+        at.mean_of_product(at.at_nodes(0), values) / self.mean_square
+    }
+
     /// Takes the component along κ out of `values`.
     pub(super) fn project(&self, at: &CurveFields, values: &mut [f64]) {
-        let kappa = at.at_nodes(0);
-        let factor = at.mean_of_product(kappa, values) / self.mean_square;
-        for (value, kappa) in values.iter_mut().zip(kappa) {
+        let factor = self.along(at, values);
+        for (value, kappa) in values.iter_mut().zip(at.at_nodes(0)) {
             *value -= factor * kappa;
         }
     }
@@ -56,6 +60,17 @@ impl NormalMobility for Incompressible {
             *v -= kappa * u;
         }
         self.project(at, velocity);
+    }
+
+    fn holding_tension(&mut self, at: &CurveFields, force: &[f64], tension: &mut [f64]) {
+        let along = self.along(at, force);
+        for ((right, kappa), f) in self.right.iter_mut().zip(at.at_nodes(0)).zip(force) {
+            *right = kappa * (f - along * kappa);
+        }
+        self.helmholtz.solve(&self.right, tension);
+        for value in tension {
+            *value += along;
+        }
     }
 
     fn symbol(&self, wave_square: f64) -> f64 {

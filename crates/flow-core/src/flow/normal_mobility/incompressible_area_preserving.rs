@@ -14,6 +14,8 @@ pub struct IncompressibleAreaPreserving {
     /// 1 less its component along κ, and 𝓘1.
     one: Vec<f64>,
     image: Vec<f64>,
+    /// The force without what holds the area.
+    less: Vec<f64>,
     /// 1/⟨𝓘1, 1⟩, or 0 on a circle.
     inverse: f64,
 }
@@ -27,6 +29,7 @@ impl IncompressibleAreaPreserving {
             incompressible: Incompressible::new(derivative, nodes),
             one: vec![0.0; nodes],
             image: vec![0.0; nodes],
+            less: vec![0.0; nodes],
             inverse: 0.0,
         }
     }
@@ -53,6 +56,14 @@ impl NormalMobility for IncompressibleAreaPreserving {
 
     fn area_multiplier(&mut self, at: &CurveFields, force: &[f64]) -> f64 {
         self.inverse * at.mean_of_product(&self.image, force)
+    }
+
+    fn holding_tension(&mut self, at: &CurveFields, force: &[f64], tension: &mut [f64]) {
+        let multiplier = self.area_multiplier(at, force);
+        for (less, f) in self.less.iter_mut().zip(force) {
+            *less = f - multiplier;
+        }
+        self.incompressible.holding_tension(at, &self.less, tension);
     }
 
     fn symbol(&self, wave_square: f64) -> f64 {

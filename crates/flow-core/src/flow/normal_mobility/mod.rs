@@ -65,6 +65,11 @@ pub trait NormalMobility: Debug + Send + Sync {
         if self.keeps().area { at.mean(force) } else { 0.0 }
     }
 
+    /// Where 𝓑 holds every piece of the curve: φ of V = f − κφ, the tension that does it, into `tension`. Shapes: one value per node.
+    fn holding_tension(&mut self, _at: &CurveFields, _force: &[f64], tension: &mut [f64]) {
+        tension.fill(0.0);
+    }
+
     /// Symbol of 𝓑 with coefficients frozen at their means, for the symbol k² of −`Δ_s`.
     fn symbol(&self, wave_square: f64) -> f64;
 

@@ -73,7 +73,7 @@ impl FourierSymbol {
             for b in 0..fields {
                 let energy = flow.energy_terms();
                 means[a * fields + b] =
-                    if a == b { energy.convex_mean(a) } else { vectors::mean(energy.jet().second(a, b)) };
+                    if a == b { energy.convex_mean(a) } else { vectors::mean(energy.implicit_second(a, b)) };
             }
         }
         // Compression makes modes grow; a preconditioner may leave that out.

@@ -63,7 +63,7 @@ pub struct Preconditioner {
 impl Preconditioner {
     /// A preconditioner of the given kind; `Auto` starts as Fourier.
     #[must_use]
-    pub fn new(kind: LinearSolver, flow: &mut GradientFlow) -> Self {
+    pub fn new(kind: LinearSolver, flow: &GradientFlow) -> Self {
         let layout = flow.layout();
         let modes = flow.spectral_layout().modes();
         let inverse = match kind {

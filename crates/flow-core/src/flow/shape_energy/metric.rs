@@ -3,7 +3,7 @@
 use super::super::intrinsic_gradient::IntrinsicGradient;
 use super::ShapeEnergy;
 use crate::energies::Order;
-use crate::geometry::vectors::mean_of_product;
+use crate::geometry::vectors::{add_scaled, mean_of_product};
 
 impl ShapeEnergy {
     /// The derivative by g: that by L at fixed w, and with ω = ∂𝓕/∂w the rest (ω − ⟨wω⟩)/L. The part along the tangents is in
@@ -20,8 +20,8 @@ impl ShapeEnergy {
         }
         let mean = mean_of_product(&self.dual.weight, weight);
         if order >= Order::Hessian {
-            self.frozen.by_weight.copy_from_slice(&self.dual.weight);
-            self.frozen.mean_by_weight = mean;
+            add_scaled(&mut self.frozen.by_weight, 1.0, &self.dual.weight);
+            self.frozen.mean_by_weight += mean;
         }
         for (value, by_weight) in self.values.iter_mut().zip(&self.dual.weight) {
             *value = gradient.by_length + (by_weight - mean) / length;

@@ -8,6 +8,7 @@
 
 mod metric;
 mod motion;
+mod pull_back;
 mod sawtooth;
 
 use sawtooth::Sawtooth;
@@ -15,7 +16,7 @@ use sawtooth::Sawtooth;
 use super::curve_fields::CurveFields;
 use super::intrinsic_gradient::IntrinsicGradient;
 use crate::energies::{Area, EnergyTerm, Order, ShapeFields};
-use crate::geometry::vectors::{add_scaled, mean, mean_of_product, scale, scale_into};
+use crate::geometry::vectors::{mean, mean_of_product, scale, scale_into};
 use crate::geometry::{Complex64, Embedding, Layout, PeriodicGrid, SpectralLayout};
 use crate::operators::Derivative;
 
@@ -50,9 +51,21 @@ struct Frozen {
     along_tangent: Vec<f64>,
     across_tangent: Vec<f64>,
     sawtooth: Option<Sawtooth>,
+    /// Energy of the terms that are line energies, per length.
+    line_tension: f64,
     /// ω = ∂𝓕/∂w and ⟨wω⟩, where the metric is a field.
     by_weight: Vec<f64>,
     mean_by_weight: f64,
+}
+
+impl Frozen {
+    fn clear(&mut self) {
+        let [x, y] = &mut self.by_position;
+        for sum in [x, y, &mut self.along_tangent, &mut self.across_tangent, &mut self.by_weight] {
+            sum.fill(0.0);
+        }
+        self.mean_by_weight = 0.0;
+    }
 }
 
 impl ShapeEnergy {
@@ -79,6 +92,7 @@ impl ShapeEnergy {
             along_tangent: vec![0.0; nodes],
             across_tangent: vec![0.0; nodes],
             sawtooth,
+            line_tension: 0.0,
             by_weight: of_motion.weight.clone(),
             mean_by_weight: 0.0,
         };
@@ -135,42 +149,36 @@ impl ShapeEnergy {
     ) -> f64 {
         self.embed(at);
         self.dual.clear();
-        let mut energy = 0.0;
+        let (mut energy, mut of_lines) = (0.0, 0.0);
         for term in terms.iter_mut().filter(|term| term.has_shape_energy()) {
-            energy += term.add_shape_energy(&self.shape, order, &mut self.dual);
-        }
-        let length = at.length();
-        for axis in 0..2 {
-            gradient.by_length +=
-                mean_of_product(&self.dual.position[axis], &self.shape.position[axis]) / length;
-            self.pull_back_to_tangent(axis, length);
-        }
-        gradient.by_length += self.dual.length;
-        let ([c, s], [by_x, by_y]) = (self.shape.tangents(), self.dual.tangents());
-        for (i, angle) in self.angle.iter_mut().enumerate() {
-            *angle = c[i] * by_y[i] - s[i] * by_x[i];
-        }
-        for (i, along) in self.values.iter_mut().enumerate() {
-            *along = c[i] * by_x[i] + s[i] * by_y[i];
+            let value = term.add_shape_energy(&self.shape, order, &mut self.dual);
+            energy += value;
+            of_lines += if term.is_line_energy() { value } else { 0.0 };
         }
         if order >= Order::Hessian {
+            self.frozen.line_tension = of_lines / at.length();
             self.held = None;
+            self.frozen.clear();
             self.frozen.shape.copy_from(&self.shape);
-            for axis in 0..2 {
-                self.frozen.by_position[axis].copy_from_slice(&self.dual.position[axis]);
-            }
-            self.frozen.along_tangent.copy_from_slice(&self.values);
-            self.frozen.across_tangent.copy_from_slice(&self.angle);
             self.frozen.sawtooth = self.sawtooth;
         }
-        if let Some(sawtooth) = self.sawtooth {
-            gradient.spectra[sawtooth.mode].re += sawtooth.first() * mean(&self.values);
-        }
-        if let Some(field) = self.metric {
-            self.pull_back_to_metric(field, order, gradient);
-        }
-        self.pull_back_to_turning(gradient);
+        self.pull_back(order, gradient);
         energy
+    }
+
+    /// Adds `multiplier` × area to the energy that was linearised last, and to its `gradient`.
+    pub fn hold_area(&mut self, multiplier: f64, gradient: &mut IntrinsicGradient) {
+        let mut held = Area::Pressure(-multiplier);
+        self.dual.clear();
+        held.add_shape_energy(&self.shape, Order::Gradient, &mut self.dual);
+        self.held = Some(held);
+        self.pull_back(Order::Hessian, gradient);
+    }
+
+    /// Tension at the linearisation of the terms that are line energies.
+    #[must_use]
+    pub fn line_tension(&self) -> f64 {
+        self.frozen.line_tension
     }
 
     /// |Σ ∂𝓕/∂γ| over the size of the derivatives by positions, of the gradient evaluated last.
@@ -179,28 +187,6 @@ impl ShapeEnergy {
         let [x, y] = self.dual.positions();
         let size = (mean_of_product(x, x) + mean_of_product(y, y)).sqrt();
         if size == 0.0 { 0.0 } else { mean(x).hypot(mean(y)) / size }
-    }
-
-    /// Adds `multiplier` × area to the energy that is linearised.
-    pub fn hold_area(&mut self, multiplier: f64) {
-        let mut held = Area::Pressure(-multiplier);
-        self.dual.clear();
-        held.add_shape_energy(&self.frozen.shape, Order::Gradient, &mut self.dual);
-        for axis in 0..2 {
-            add_scaled(&mut self.frozen.by_position[axis], 1.0, &self.dual.position[axis]);
-            self.pull_back_to_tangent(axis, self.frozen.shape.length);
-        }
-        let ([c, s], [by_x, by_y]) = (self.frozen.shape.tangents(), self.dual.tangents());
-        for i in 0..c.len() {
-            let along = c[i] * by_x[i] + s[i] * by_y[i];
-            if self.metric.is_some() {
-                self.frozen.by_weight[i] += along / self.frozen.shape.weight[i];
-                self.frozen.mean_by_weight += along / c.len() as f64;
-            }
-            self.frozen.along_tangent[i] += along;
-            self.frozen.across_tangent[i] += c[i] * by_y[i] - s[i] * by_x[i];
-        }
-        self.held = Some(held);
     }
 
     /// Adds the second derivative times the motion `v` of the spectral state vector.
@@ -263,27 +249,5 @@ impl ShapeEnergy {
             *angle = c[i] * by_y[i] - s[i] * by_x[i] + stretch(i) * across[i] - *angle * along[i];
         }
         self.pull_back_to_turning(out);
-    }
-
-    /// Derivative by tangents += (LP)ᵀ derivative by positions = −LP derivative by positions.
-    fn pull_back_to_tangent(&mut self, axis: usize, length: f64) {
-        self.grid.transform(&self.dual.position[axis], &mut self.spectrum);
-        self.grid.integrate(&mut self.spectrum);
-        self.grid.synthesise(&self.spectrum, &mut self.values);
-        for (tangent, value) in self.dual.tangent[axis].iter_mut().zip(&self.values) {
-            *tangent -= length * value;
-        }
-    }
-
-    /// p += (P + s⟨·⟩)ᵀ `angle`.
-    fn pull_back_to_turning(&mut self, out: &mut IntrinsicGradient) {
-        let nodes = self.angle.len() as f64;
-        self.grid.transform(&self.angle, &mut self.spectrum);
-        self.grid.integrate(&mut self.spectrum);
-        out.spectra.iter_mut().zip(&self.spectrum).for_each(|(p, value)| *p -= value);
-        for (i, value) in self.values.iter_mut().enumerate() {
-            *value = self.angle[i] * i as f64 / nodes;
-        }
-        out.spectra[0].re += mean(&self.values);
     }
 }

@@ -25,9 +25,12 @@ pub fn set(part: &mut LinearPart, flow: &mut GradientFlow) -> bool {
     part.clear(fields, modes);
     let tension = flow.mean_tension();
     let mut means = [[0.0; MOST_FIELDS]; MOST_FIELDS];
-    let jet = flow.energy_terms().jet();
+    let energy = flow.energy_terms();
     for (a, row) in means[..fields].iter_mut().enumerate() {
-        row[..fields].iter_mut().enumerate().for_each(|(b, value)| *value = mean(jet.second(a, b)));
+        row[..fields]
+            .iter_mut()
+            .enumerate()
+            .for_each(|(b, value)| *value = mean(energy.implicit_second(a, b)));
     }
     let (mut root, mut scale) = ([0.0; MOST_FIELDS], [1.0; MOST_FIELDS]);
     for mode in 0..modes {

@@ -3,6 +3,7 @@
 mod ahead;
 mod clocks;
 mod discretised;
+mod frame;
 mod recording;
 mod remap;
 mod resume;
@@ -16,6 +17,7 @@ use std::time::Instant;
 
 use clocks::Clocks;
 use discretised::Discretised;
+use frame::Start;
 pub use resume::{Memory, ResumeError};
 use saving::FrameRoom;
 
@@ -25,7 +27,6 @@ use crate::integrator::{Adaptive, Clocked, Counters, IntegrationError, Multistep
 use crate::run::adaptation::Adaptation;
 use crate::run::equilibrium::Equilibrium;
 use crate::run::failure::Failure;
-use crate::run::frames::Start;
 use crate::run::gauges::Gauges;
 use crate::run::observer::{Observer, Progress};
 use crate::run::record::{Frame, Record, StopReason};

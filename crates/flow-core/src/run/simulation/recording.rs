@@ -4,10 +4,9 @@ use std::time::Instant;
 
 use super::Simulation;
 use super::ahead::ahead;
-use crate::integrator::{Counters, INTEGRALS, IntegrationError, Stepper};
+use crate::integrator::{Counters, IntegrationError, Stepper};
 use crate::run::culprit::Culprit;
 use crate::run::failure::Failure;
-use crate::run::frames::frame;
 use crate::run::record::{Frame, Record, StepLog, StopReason};
 use crate::run::seconds::Seconds;
 
@@ -19,18 +18,7 @@ impl Simulation {
     pub fn frame(&mut self) -> Frame {
         self.on.scratch.copy_from_slice(self.integration.stepper().state());
         let (time, integrals) = (self.integration.stepper().time(), self.integration.integrals());
-        self.frame_of_scratch(time, integrals, Some(self.closure_defect))
-    }
-
-    /// The state in the scratch, at `time`, as a frame; without a `closure_defect` with its own.
-    pub(super) fn frame_of_scratch(
-        &mut self,
-        time: f64,
-        integrals: [f64; INTEGRALS],
-        closure_defect: Option<f64>,
-    ) -> Frame {
-        let (membrane, diagnostics) = (&mut self.on.membrane, &mut self.on.diagnostics);
-        frame(membrane, diagnostics, time, &mut self.on.scratch, integrals, &self.start, closure_defect)
+        self.on.frame(time, integrals, &self.start, Some(self.closure_defect))
     }
 
     /// Names of the densities, in the order of [`Frame::density`].

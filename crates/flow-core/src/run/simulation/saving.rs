@@ -35,7 +35,7 @@ impl Simulation {
             let clock = Instant::now();
             self.check_room(1, self.layout())?;
             let integrals = self.integration.stepper().interpolate(time, &mut self.on.scratch);
-            let frame = self.frame_of_scratch(time, integrals, None);
+            let frame = self.on.frame(time, integrals, &self.start, None);
             self.record.frames.push(frame);
             self.scheduled_frames += 1;
             self.frame_room.nodes = self.frame_room.nodes.max(self.layout().nodes());

@@ -5,6 +5,7 @@ use std::time::Instant;
 use super::ahead::ahead;
 use super::clocks::Clocks;
 use super::discretised::Discretised;
+use super::frame::Start;
 use super::saving::FrameRoom;
 use super::{ENERGY_TOLERANCE_SHARE, Simulation};
 use crate::energies::EnergyTerm;
@@ -15,7 +16,6 @@ use crate::integrator::{
 };
 use crate::run::culprit::Culprit;
 use crate::run::equilibrium::Equilibrium;
-use crate::run::frames::{Start, frame};
 use crate::run::own_terms::OwnTerms;
 use crate::run::provenance::Provenance;
 use crate::run::record::{Record, StepLog, StopReason};
@@ -30,6 +30,7 @@ const MISSED: f64 = 1e-2;
 const MISSED_TOLERANCES: f64 = 10.0;
 /// Steps that are logged without allocating; beyond, the room doubles now and then.
 const STEP_ROOM: usize = 4096;
+
 impl Simulation {
     /// Builds what the scene names; saves the initial frame. Values of the scene that were changed since it was read are checked
     /// first, as [`Scene::checked`] does.
@@ -61,11 +62,14 @@ impl Simulation {
         let doubts_gradients = own.exist();
         let mut setup = Setup::of(scene, own)?;
         let (energy, integral_rates) = setup.finish()?;
+        if let Some(fault) = setup.membrane.flow().fault() {
+            return Err(fault.into());
+        }
         let Setup {
-            mut membrane,
-            mut state,
+            membrane,
+            state,
             placement,
-            mut diagnostics,
+            diagnostics,
             closure_defect,
             gauges,
             mesh,
@@ -73,27 +77,17 @@ impl Simulation {
             missed,
             ..
         } = setup;
-        if let Some(fault) = membrane.flow().fault() {
-            return Err(fault.into());
-        }
+        let mut on = Discretised { membrane, diagnostics, mesh, remapped_at: 0, scratch: state };
         let start = Start { energy, angle: placement.angle, centre: placement.centre, remap_error: 0.0 };
-        let first = frame(
-            &mut membrane,
-            &mut diagnostics,
-            0.0,
-            &mut state,
-            [0.0; INTEGRALS],
-            &start,
-            Some(closure_defect),
-        );
+        let first = on.frame(0.0, [0.0; INTEGRALS], &start, Some(closure_defect));
         let allowed_crossings = first.crossings as usize;
         let mut counters = Counters::default();
         let mut watch = Stopwatch::default();
         let first_rate = Instant::now();
         let integrals = Integrals::new(0.0, [0.0; INTEGRALS], integral_rates);
         let stepper = Multistep::starting(
-            &mut Clocked::new(&mut membrane, &mut watch),
-            &state,
+            &mut Clocked::new(&mut on.membrane, &mut watch),
+            &on.scratch,
             integrals,
             scene.accuracy.tolerance,
             &mut counters,
@@ -111,10 +105,10 @@ impl Simulation {
             title: scene.title.clone(),
             scene: scene.text().to_owned(),
             resolved_scene: scene.to_toml(),
-            energy_terms: membrane.flow().energy_terms().names().map(str::to_owned).collect(),
+            energy_terms: on.membrane.flow().energy_terms().names().map(str::to_owned).collect(),
             densities: scene.density.iter().map(|density| density.name.clone()).collect(),
-            fields: diagnostics.field_names(),
-            diagnostics: diagnostics.value_names(),
+            fields: on.diagnostics.field_names(),
+            diagnostics: on.diagnostics.value_names(),
             frames: vec![first],
             steps: StepLog::with_room(STEP_ROOM),
             counters,
@@ -132,7 +126,7 @@ impl Simulation {
             adaptation,
             misses_data: scene.accuracy.nodes != Nodes::Auto
                 && missed > MISSED.max(MISSED_TOLERANCES * scene.accuracy.tolerance),
-            frame_room: FrameRoom::new(mesh.nodes),
+            frame_room: FrameRoom::new(on.mesh.nodes),
             switches: 0,
             tolerance: scene.accuracy.tolerance,
             start,
@@ -142,7 +136,7 @@ impl Simulation {
             scheduled_frames: 1,
             closure_defect,
             allowed_crossings: scene.flow.stop_on_contact.then_some(allowed_crossings),
-            on: Discretised::new((membrane, diagnostics), mesh, 0),
+            on,
             record,
             clocks: Clocks::started(clock, counters.integration_seconds, watch),
             stopped: None,

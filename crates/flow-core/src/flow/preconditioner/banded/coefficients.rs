@@ -40,7 +40,7 @@ impl<const F: usize> Coefficients<F> {
         for a in 0..F {
             for b in 0..=a {
                 let range = block * nodes..(block + 1) * nodes;
-                let second = flow.energy_terms().jet().second(a, b);
+                let second = flow.energy_terms().implicit_second(a, b);
                 if let Some(fine) = &mut self.fine_grid {
                     fine.transform(second, &mut self.fine_spectrum);
                     self.spectrum.fill(Complex64::default());

@@ -1,0 +1,86 @@
+//! The tension of the curve at the linearisation, for products and for preconditioners. See `THEORY.md`, eqs. (F20) and (F21).
+
+use super::{Descent, GradientFlow};
+use crate::flow::intrinsic_gradient::IntrinsicGradient;
+use crate::geometry::Complex64;
+use crate::geometry::vectors::{add_scaled, mean};
+
+/// The tension at a linearisation.
+#[derive(Debug)]
+pub struct FrozenTension {
+    /// Minus the tension at each node: Z − ⟨wZ⟩ − π less its mean, or less what holds every piece of the curve, where that is held.
+    pub stretching: Vec<f64>,
+    /// Mean over the nodes of the tension that symbols hold.
+    mean: f64,
+    /// The tension that holds every piece of the curve, where that is held and terms depend on positions.
+    holding: Vec<f64>,
+    /// Gradient of the energy and of what holds the area; empty where no term depends on positions.
+    held: IntrinsicGradient,
+}
+
+impl FrozenTension {
+    /// For `nodes` nodes; gradients have `coefficients` coefficients where terms depend on positions, and 0 elsewhere.
+    pub fn new(nodes: usize, coefficients: usize) -> Self {
+        let held = IntrinsicGradient { spectra: vec![Complex64::default(); coefficients], by_length: 0.0 };
+        Self { stretching: vec![0.0; nodes], mean: 0.0, holding: vec![0.0; nodes], held }
+    }
+}
+
+impl GradientFlow {
+    /// Takes the tension at the linearisation, whose gradient is at hand.
+    pub(super) fn freeze_tension(&mut self) {
+        if self.energy.depends_on_positions() {
+            return self.freeze_tension_of_positions();
+        }
+        let Self { descent: Descent { map, gradient, .. }, frozen, tension, .. } = self;
+        let FrozenTension { stretching, mean: tension, .. } = tension;
+        map.stretching(&frozen.fields, &gradient.spectra, gradient.by_length, stretching);
+        if frozen.mobility.keeps().length {
+            // 𝓑 takes κ to zero on every curve: a mean tension moves nothing, and its derivative is not that of the force alone.
+            let mean = frozen.fields.mean(stretching);
+            for value in &mut *stretching {
+                *value -= mean;
+            }
+        }
+        *tension = -mean(stretching);
+    }
+
+    /// The same where terms depend on positions. Symbols do not hold Hess of these, which takes their tension away, but for that of line
+    /// energies.
+    fn freeze_tension_of_positions(&mut self) {
+        self.hold_area();
+        let Self { energy, descent: Descent { map, force, .. }, frozen, tension, .. } = self;
+        let FrozenTension { stretching, holding, held, mean: tension } = tension;
+        map.stretching(&frozen.fields, &held.spectra, held.by_length, stretching);
+        if frozen.mobility.keeps().length {
+            map.complete_force(&frozen.fields, &held.spectra, stretching, force);
+            frozen.holding_tension(force, holding);
+            add_scaled(stretching, -1.0, holding);
+        }
+        let local = energy.gradient_without_positions();
+        map.stretching(&frozen.fields, &local.spectra, local.by_length, force);
+        *tension = mean(holding) + energy.line_tension() - mean(force);
+    }
+
+    /// Where the area is held, 𝓚 takes its gradient to zero: what is linearised is the energy less the force that holds it.
+    fn hold_area(&mut self) {
+        self.tension.held.copy_from(&self.descent.gradient);
+        if self.frozen.mobility.keeps().area {
+            self.descent.set_force(&self.frozen.fields);
+            let multiplier = self.frozen.mobility.area_multiplier(&self.frozen.fields, &self.descent.force);
+            self.energy.hold_area(multiplier, &mut self.tension.held);
+        }
+    }
+
+    /// Minus the tension of the curve at the linearisation, one value per node: Z − ⟨wZ⟩ − π, less what holds every piece of the curve.
+    #[must_use]
+    pub fn frozen_stretching(&self) -> &[f64] {
+        &self.tension.stretching
+    }
+
+    /// Mean tension of the curve at the linearisation, without that of terms that depend on positions; negative where it is compressed.
+    #[must_use]
+    pub fn mean_tension(&self) -> f64 {
+        self.tension.mean
+    }
+}
