@@ -7,7 +7,9 @@ use bytemuck::{cast_slice, cast_slice_mut};
 use super::curve_fields::CurveFields;
 use super::gauge::{CoMoving, Gauge, Graded, MetricRole, ScaledArcLength, Workspace};
 use super::graded_energy::mean_product;
-use crate::geometry::vectors::{add_real_symbol, add_scaled, apply_real_symbol, multiply, multiply_into};
+use crate::geometry::vectors::{
+    add_product, add_real_symbol, add_scaled, apply_real_symbol, multiply, multiply_into,
+};
 use crate::geometry::{Complex64, Grading, Layout, PeriodicGrid};
 use crate::operators::{Derivative, GradedLaplacian};
 
@@ -142,6 +144,28 @@ impl FlowMap {
     pub fn stretching(&mut self, at: &CurveFields, gradient: &[Complex64], by_length: f64, out: &mut [f64]) {
         self.at_hand = false;
         self.gauge.stretching(&mut self.work, at, gradient, by_length, out);
+    }
+
+    /// Derivatives of `gradient` along the curve, for [`FlowMap::add_change_of_stretching`]: one value per node for each field.
+    pub fn set_slopes(&mut self, gradient: &[Complex64], slopes: &mut [f64]) {
+        self.at_hand = false;
+        self.work.set_slopes(gradient, slopes);
+    }
+
+    /// Adds to `force` what the nodal `motion` of the fields does to it through the stretching, at the gradient with these `slopes`; but
+    /// for a multiple of κ.
+    pub fn add_change_of_stretching(
+        &mut self,
+        at: &CurveFields,
+        motion: &[f64],
+        slopes: &[f64],
+        force: &mut [f64],
+    ) {
+        self.at_hand = false;
+        self.work.pair_with_slopes(motion, slopes);
+        if self.gauge.change_of_stretching(&mut self.work, at, &mut self.stretching) {
+            add_product(force, &self.stretching, at.at_nodes(0));
+        }
     }
 
     /// Rates of the fields per unit parameter as spectra, one per field, under the normal velocity `v`.

@@ -56,8 +56,9 @@ fn tension_counts_whatever_stands_beside_it() {
 #[test]
 fn what_holds_the_length_against_pressure_counts() {
     for normal in [Normal::Incompressible, Normal::IncompressibleAreaPreserving] {
-        for terms in [&[Term::Pressure][..], &[Term::Tension, Term::AreaPenalty], &[Term::Adhesion]] {
-            let [product, derivative] = entries(terms, normal);
+        for beside in [Term::Pressure, Term::AreaPenalty, Term::Adhesion] {
+            let terms = [Term::Tension, beside];
+            let [product, derivative] = entries(&terms, normal);
             println!("{terms:?}, {normal:?}: {product:.4e}, {derivative:.4e}");
             // Pressure alone moves nothing where the area is held.
             let error = (product - derivative).abs();

@@ -126,11 +126,10 @@ impl EnergySum {
         &self.jet
     }
 
-    /// δκ at the nodes under the motion of the last [`EnergySum::hessian_product`].
+    /// δφ of all fields at the nodes under the motion of the last [`EnergySum::hessian_product`], that of the curvature first.
     #[must_use]
-    pub fn curvature_motion(&self) -> &[f64] {
-        let motion = self.moving.as_ref().map_or(&self.motion[..], MovingMetricEnergy::motion);
-        &motion[self.layout.field(0)]
+    pub fn field_motion(&self) -> &[f64] {
+        self.moving.as_ref().map_or(&self.motion[..], MovingMetricEnergy::motion)
     }
 
     /// Sum of the functions of the length.

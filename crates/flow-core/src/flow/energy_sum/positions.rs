@@ -12,6 +12,12 @@ impl EnergySum {
         self.shape.is_some()
     }
 
+    /// Whether no other terms make the energy: nothing damps short waves then.
+    #[must_use]
+    pub fn is_of_positions_alone(&self) -> bool {
+        self.terms.iter().all(|term| term.has_shape_energy())
+    }
+
     /// Largest distance of nodes on which the parts that depend on positions are off by the part `error` at most.
     #[must_use]
     pub fn largest_spacing(&self, length: f64, error: f64) -> f64 {

@@ -3,7 +3,7 @@
 use super::{Gauge, MetricRole, Workspace};
 use crate::flow::CurveFields;
 use crate::geometry::vectors::{
-    add_scaled, mean, mean_of_product, multiply, multiply_by, multiply_by_conjugate, multiply_into, scale,
+    add_scaled, mean, mean_of_product, multiply, multiply_by_conjugate, multiply_into, scale,
 };
 use crate::geometry::{Complex64, Grading};
 
@@ -44,16 +44,17 @@ impl Gauge for Graded {
     ) {
         let grading = grading(at);
         work.transport_transposed(at, gradient);
-        // W has mean zero over the curve, not over the flux points.
-        let excess = -mean(&work.product) / grading.midpoint_mean();
-        add_scaled(&mut work.product, excess, grading.at_midpoints());
-        work.grid.transform(&work.product, &mut work.spectrum);
-        multiply_by(&mut work.spectrum, work.derivative.inverse_to_flux());
-        work.grid.synthesise(&work.spectrum, &mut work.values);
+        integrate_product(work, grading);
         let by_length = by_length + mean_of_product(grading.weight(), &work.values);
         for (out, z) in out.iter_mut().zip(&work.values) {
             *out = z - by_length;
         }
+    }
+
+    fn change_of_stretching(&self, work: &mut Workspace, at: &CurveFields, out: &mut [f64]) -> bool {
+        integrate_product(work, grading(at));
+        out.copy_from_slice(&work.values);
+        true
     }
 
     fn tangential_velocity(&self, work: &mut Workspace, at: &CurveFields, v: &[f64], w: &mut [f64]) {
@@ -71,6 +72,13 @@ impl Gauge for Graded {
             *w -= mean;
         }
     }
+}
+
+/// [`Workspace::integrate_product`] where W has mean zero over the curve, not over the flux points.
+fn integrate_product(work: &mut Workspace, grading: &Grading) {
+    let excess = -mean(&work.product) / grading.midpoint_mean();
+    add_scaled(&mut work.product, excess, grading.at_midpoints());
+    work.integrate_product();
 }
 
 /// The grading of the nodes.

@@ -72,6 +72,15 @@ pub trait Gauge: Debug + Send + Sync {
         out: &mut [f64],
     );
 
+    /// What a motion δφ of the fields does to [`Gauge::stretching`] at the same gradient, but for a constant, from
+    /// `work.product` = Σ δφ ∂_s p at the flux points; false where W does not depend on the fields.
+    ///
+    /// # Shapes
+    /// `out`: one value per node, overwritten.
+    fn change_of_stretching(&self, _work: &mut Workspace, _at: &CurveFields, _out: &mut [f64]) -> bool {
+        false
+    }
+
     /// W at the nodes (by the Fourier derivative in every family: it places the curve, it does not enter the energy).
     ///
     /// # Shapes

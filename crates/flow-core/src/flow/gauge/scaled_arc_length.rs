@@ -3,7 +3,7 @@
 use super::{Gauge, MetricRole, Workspace};
 use crate::flow::CurveFields;
 use crate::geometry::Complex64;
-use crate::geometry::vectors::{multiply_by, multiply_by_conjugate, multiply_into, scale, shift_into};
+use crate::geometry::vectors::{multiply_by_conjugate, multiply_into, scale, shift_into};
 
 /// The nodes stay at equal distances.
 #[derive(Clone, Copy, Debug, Default)]
@@ -44,10 +44,14 @@ impl Gauge for ScaledArcLength {
         out: &mut [f64],
     ) {
         work.transport_transposed(at, gradient);
-        work.grid.transform(&work.product, &mut work.spectrum);
-        multiply_by(&mut work.spectrum, work.derivative.inverse_to_flux());
-        work.grid.synthesise(&work.spectrum, &mut work.values);
+        work.integrate_product();
         shift_into(out, -by_length, &work.values);
+    }
+
+    fn change_of_stretching(&self, work: &mut Workspace, _: &CurveFields, out: &mut [f64]) -> bool {
+        work.integrate_product();
+        out.copy_from_slice(&work.values);
+        true
     }
 
     fn tangential_velocity(&self, work: &mut Workspace, at: &CurveFields, v: &[f64], w: &mut [f64]) {

@@ -1,7 +1,9 @@
 //! What gauges work with on one grid.
 
 use crate::flow::curve_fields::CurveFields;
-use crate::geometry::vectors::{add_product, apply_symbol, multiply_by_conjugate, multiply_into};
+use crate::geometry::vectors::{
+    add_product, apply_symbol, multiply_by, multiply_by_conjugate, multiply_into,
+};
 use crate::geometry::{Complex64, Layout, PeriodicGrid};
 use crate::operators::{Derivative, GradedLaplacian};
 
@@ -69,5 +71,41 @@ impl Workspace {
                 add_product(&mut self.product, phi, &self.values);
             }
         }
+    }
+
+    /// ∂_s p of each field at the flux points, into `slopes`: one value per node for each.
+    pub fn set_slopes(&mut self, gradient: &[Complex64], slopes: &mut [f64]) {
+        for field in 0..self.layout.fields() {
+            apply_symbol(
+                &mut self.spectrum,
+                &gradient[self.layout.spectrum(field)],
+                self.derivative.to_flux(),
+            );
+            self.grid.synthesise(&self.spectrum, &mut slopes[self.layout.field(field)]);
+        }
+    }
+
+    /// Σ δφ ∂_s p over the fields, at the flux points, into `product`: of the nodal `motion` δφ the mean of the two nodes beside each.
+    pub fn pair_with_slopes(&mut self, motion: &[f64], slopes: &[f64]) {
+        let nodes = self.layout.nodes();
+        let between = self.derivative.interpolation().is_some();
+        self.product.fill(0.0);
+        for (motion, slopes) in motion.chunks_exact(nodes).zip(slopes.chunks_exact(nodes)) {
+            if !between {
+                add_product(&mut self.product, motion, slopes);
+                continue;
+            }
+            let after = motion[1..].iter().chain(&motion[..1]);
+            for (((sum, own), after), slope) in self.product.iter_mut().zip(motion).zip(after).zip(slopes) {
+                *sum += 0.5 * (own + after) * slope;
+            }
+        }
+    }
+
+    /// Z of D₊Z = `product` less its mean, into `values`; with mean zero.
+    pub fn integrate_product(&mut self) {
+        self.grid.transform(&self.product, &mut self.spectrum);
+        multiply_by(&mut self.spectrum, self.derivative.inverse_to_flux());
+        self.grid.synthesise(&self.spectrum, &mut self.values);
     }
 }

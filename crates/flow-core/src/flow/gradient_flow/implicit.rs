@@ -1,7 +1,6 @@
 //! The operator −𝓚 Hess `𝓕_h`, and with the tension the implicit one. See `THEORY.md`, eqs. (F7) and (F20).
 
 use super::{Descent, GradientFlow};
-use crate::geometry::vectors::add_product;
 
 impl GradientFlow {
     /// Product of the frozen −𝓚 Hess `𝓕_h` with `v`, both spectral.
@@ -22,7 +21,7 @@ impl GradientFlow {
     pub fn implicit_product(&mut self, v: &[f64], out: &mut [f64]) {
         self.spectral_hessian_product(v);
         self.descent.set_force(&self.frozen.fields);
-        add_product(&mut self.descent.force, &self.tension.stretching, self.energy.curvature_motion());
+        self.add_tension();
         self.drive_frozen();
         self.descent.write_rates(&self.frozen.fields, out);
     }

@@ -106,8 +106,7 @@ impl GradientFlow {
             velocity: vec![0.0; layout.nodes()],
             spectrum: vec![Complex64::default(); layout.modes()],
         };
-        let held = if energy.depends_on_positions() { descent.gradient.spectra.len() } else { 0 };
-        let tension = FrozenTension::new(layout.nodes(), held);
+        let tension = FrozenTension::new(layout, energy.depends_on_positions());
         Self {
             energy,
             descent,

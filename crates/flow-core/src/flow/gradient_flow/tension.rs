@@ -2,14 +2,16 @@
 
 use super::{Descent, GradientFlow};
 use crate::flow::intrinsic_gradient::IntrinsicGradient;
-use crate::geometry::Complex64;
-use crate::geometry::vectors::{add_scaled, mean};
+use crate::geometry::vectors::{add_product, add_scaled, mean};
+use crate::geometry::{Complex64, Layout};
 
 /// The tension at a linearisation.
 #[derive(Debug)]
 pub struct FrozenTension {
     /// Minus the tension at each node: Z − ⟨wZ⟩ − π less its mean, or less what holds every piece of the curve, where that is held.
     pub stretching: Vec<f64>,
+    /// Derivatives of the gradient along the curve, by field; empty where no term depends on positions.
+    slopes: Vec<f64>,
     /// Mean over the nodes of the tension that symbols hold.
     mean: f64,
     /// The tension that holds every piece of the curve, where that is held and terms depend on positions.
@@ -19,10 +21,13 @@ pub struct FrozenTension {
 }
 
 impl FrozenTension {
-    /// For `nodes` nodes; gradients have `coefficients` coefficients where terms depend on positions, and 0 elsewhere.
-    pub fn new(nodes: usize, coefficients: usize) -> Self {
-        let held = IntrinsicGradient { spectra: vec![Complex64::default(); coefficients], by_length: 0.0 };
-        Self { stretching: vec![0.0; nodes], mean: 0.0, holding: vec![0.0; nodes], held }
+    /// For states of `layout`, and terms of which some depend on positions or none.
+    pub fn new(layout: Layout, depends_on_positions: bool) -> Self {
+        let room = |size: usize| if depends_on_positions { size } else { 0 };
+        let (nodes, spectra) = (layout.nodes(), room(layout.state_fields() * layout.modes()));
+        let held = IntrinsicGradient { spectra: vec![Complex64::default(); spectra], by_length: 0.0 };
+        let slopes = vec![0.0; room(layout.fields() * nodes)];
+        Self { stretching: vec![0.0; nodes], slopes, mean: 0.0, holding: vec![0.0; nodes], held }
     }
 }
 
@@ -50,7 +55,8 @@ impl GradientFlow {
     fn freeze_tension_of_positions(&mut self) {
         self.hold_area();
         let Self { energy, descent: Descent { map, force, .. }, frozen, tension, .. } = self;
-        let FrozenTension { stretching, holding, held, mean: tension } = tension;
+        let FrozenTension { stretching, slopes, holding, held, mean: tension } = tension;
+        map.set_slopes(&held.spectra, slopes);
         map.stretching(&frozen.fields, &held.spectra, held.by_length, stretching);
         if frozen.mobility.keeps().length {
             map.complete_force(&frozen.fields, &held.spectra, stretching, force);
@@ -60,6 +66,21 @@ impl GradientFlow {
         let local = energy.gradient_without_positions();
         map.stretching(&frozen.fields, &local.spectra, local.by_length, force);
         *tension = mean(holding) + energy.line_tension() - mean(force);
+        if energy.is_of_positions_alone() {
+            // Hess alone damps what rounding does to short waves under a pressure that shrinks the curve; with the tension nothing does.
+            stretching.fill(0.0);
+            *tension = 0.0;
+        }
+    }
+
+    /// Adds to the force what the last motion of the second derivative does to it by the tension, and to the tension.
+    pub(super) fn add_tension(&mut self) {
+        let Self { energy, descent: Descent { map, force, layout, .. }, frozen, tension, .. } = self;
+        let motion = energy.field_motion();
+        add_product(force, &tension.stretching, &motion[layout.field(0)]);
+        if energy.depends_on_positions() && !energy.is_of_positions_alone() {
+            map.add_change_of_stretching(&frozen.fields, motion, &tension.slopes, force);
+        }
     }
 
     /// Where the area is held, 𝓚 takes its gradient to zero: what is linearised is the energy less the force that holds it.
