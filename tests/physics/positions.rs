@@ -225,3 +225,24 @@ fn tension_is_implicit_beside_positions() {
         }
     }
 }
+
+/// The pressure of a stiff penalty makes p_κ so large that the implicit operator must hold what the fields do to the tension.
+#[test]
+fn a_stiff_penalty_on_the_area_is_no_burden() {
+    for tolerance in ["1e-2", "1e-3", "1e-5"] {
+        let record = run(&scene(&format!(
+            "
+            curve = {{ shape = 'ellipse', semi_axes = [1.3, 1.0] }}
+            energy.bending.rigidity = 1.0
+            energy.length = {{ penalty = 1e4, target_ratio = 1.0 }}
+            energy.area = {{ penalty = 1e4, target_ratio = 0.5 }}
+            time = {{ end = 1.0, stop_at_equilibrium = false, max_steps = 3000 }}
+            accuracy.tolerance = {tolerance}
+            output.frames = 1
+            "
+        )));
+        println!("{tolerance}: {} steps", record.counters.steps);
+        assert_eq!(record.stop_reason, StopReason::EndTime, "{tolerance}");
+        assert!(record.counters.steps < 800, "{tolerance}: {} steps", record.counters.steps);
+    }
+}

@@ -50,8 +50,8 @@ impl GradientFlow {
         *tension = -mean(stretching);
     }
 
-    /// The same where terms depend on positions. Symbols do not hold Hess of these, which takes their tension away, but for that of line
-    /// energies.
+    /// The same where terms depend on positions. Symbols leave out Hess of these terms and, since Hess cancels it, their tension, but
+    /// for that of line energies, which it does not cancel.
     fn freeze_tension_of_positions(&mut self) {
         self.hold_area();
         let Self { energy, descent: Descent { map, force, .. }, frozen, tension, .. } = self;
@@ -99,7 +99,8 @@ impl GradientFlow {
         &self.tension.stretching
     }
 
-    /// Mean tension of the curve at the linearisation, without that of terms that depend on positions; negative where it is compressed.
+    /// Mean tension of the curve at the linearisation as symbols hold it: of terms that depend on positions only that of line energies
+    /// and what holds every piece of the curve against them. Negative where the curve is compressed.
     #[must_use]
     pub fn mean_tension(&self) -> f64 {
         self.tension.mean

@@ -181,7 +181,8 @@ impl ShapeEnergy {
         self.frozen.line_tension
     }
 
-    /// |Σ ∂𝓕/∂γ| over the size of the derivatives by positions, of the gradient evaluated last.
+    /// |Σ ∂𝓕/∂γ| over the size of the derivatives by positions, of the gradient evaluated last; after [`ShapeEnergy::hold_area`] of the area
+    /// alone.
     #[must_use]
     pub fn net_force(&self) -> f64 {
         let [x, y] = self.dual.positions();
