@@ -226,7 +226,7 @@ fn tension_is_implicit_beside_positions() {
     }
 }
 
-/// The pressure of a stiff penalty makes p_κ so large that the implicit operator must hold what the fields do to the tension.
+/// The pressure of a stiff penalty makes `p_κ` so large that the implicit operator must hold what the fields do to the tension.
 #[test]
 fn a_stiff_penalty_on_the_area_is_no_burden() {
     for tolerance in ["1e-2", "1e-3", "1e-5"] {
