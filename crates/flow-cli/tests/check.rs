@@ -42,3 +42,44 @@ fn more_pairs_of_nodes_than_allowed_are_refused_at_once() {
     assert!(text.contains("pairs of 65536 nodes") && text.contains("try 16384 nodes"), "{text}");
     assert!(clock.elapsed().as_secs_f64() < 20.0, "{:?}", clock.elapsed());
 }
+
+#[test]
+fn terms_that_move_nothing_are_named() {
+    let warnings = |mobility: &str| {
+        let change = format!("flow.normal_mobility={mobility}");
+        let terms = ["energy.area={ penalty = 1.0, target_ratio = 0.9 }", "energy.length.tension=1.0"];
+        let set = [
+            "length_penalty",
+            "--json",
+            "--set",
+            &change,
+            "--set",
+            "energy.length=",
+            "--set",
+            terms[0],
+            "--set",
+            terms[1],
+        ];
+        let output = check(&set);
+        let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        json["warnings"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|text| text.as_str().unwrap().to_owned())
+            .collect::<Vec<_>>()
+    };
+    assert!(warnings("identity").is_empty());
+    for (mobility, keys) in [
+        ("incompressible", &["length"][..]),
+        ("area-preserving", &["area"]),
+        ("surface-diffusion", &["area"]),
+        ("incompressible-area-preserving", &["length", "area"]),
+    ] {
+        let found = warnings(mobility);
+        assert_eq!(found.len(), keys.len(), "{found:?}");
+        let named =
+            found.iter().zip(keys).all(|(text, key)| text.contains(&format!("energy.{key} moves nothing")));
+        assert!(named, "{found:?}");
+    }
+}

@@ -5,8 +5,8 @@ use std::time::Instant;
 use flow_core::run::scene::Nodes;
 use flow_core::run::{Prediction, Scene, StopReason, Trial, predict};
 
-use super::room;
 use super::scene_args::SceneArgs;
+use super::{idle, room};
 use crate::error::CliError;
 use crate::print;
 
@@ -14,7 +14,7 @@ use crate::print;
 ///
 /// A trial run tells. It takes about a second, or four where steps are slow; but it takes two steps in any case, and with adhesion on 16384
 /// nodes these take about ten seconds, with a dense solver on 4000 nodes a minute. Warnings say what does not fit into the memory of this
-/// machine, or what a run may not hold.
+/// machine, what a run may not hold, and which terms move nothing.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     #[command(flatten)]
@@ -30,7 +30,7 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     let clock = Instant::now();
     let prediction = predict(&scene).map_err(|error| args.scene.unusable(error))?;
     if args.json {
-        return print::data(&format!("{:#}", json(&prediction)));
+        return print::data(&format!("{:#}", json(&prediction, &scene)));
     }
     print::data(&table(&prediction, &scene))?;
     let Trial { tolerance, .. } = prediction.trial;
@@ -41,7 +41,7 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     Ok(())
 }
 
-fn json(prediction: &Prediction) -> serde_json::Value {
+fn json(prediction: &Prediction, scene: &Scene) -> serde_json::Value {
     let Prediction { steps, integration_seconds, output_seconds, ref trial, .. } = *prediction;
     serde_json::json!({
         "nodes": prediction.nodes,
@@ -54,7 +54,7 @@ fn json(prediction: &Prediction) -> serde_json::Value {
         "integration_seconds": integration_seconds,
         "output_seconds": output_seconds,
         "seconds": integration_seconds + output_seconds,
-        "warnings": room::warnings(prediction),
+        "warnings": warnings(prediction, scene),
         "trial": {
             "tolerance": trial.tolerance,
             "time": trial.time,
@@ -62,6 +62,10 @@ fn json(prediction: &Prediction) -> serde_json::Value {
             "message": trial.stop_reason.as_ref().map(StopReason::message),
         },
     })
+}
+
+fn warnings(prediction: &Prediction, scene: &Scene) -> Vec<String> {
+    room::warnings(prediction).into_iter().chain(idle::warnings(scene)).collect()
 }
 
 fn table(prediction: &Prediction, scene: &Scene) -> String {
@@ -87,7 +91,7 @@ fn table(prediction: &Prediction, scene: &Scene) -> String {
         }
         _ => String::new(),
     };
-    let warnings = room::warnings(prediction)
+    let warnings = warnings(prediction, scene)
         .iter()
         .fold(String::new(), |lines, warning| lines + "\nwarning   " + warning);
     format!(

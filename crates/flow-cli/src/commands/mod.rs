@@ -2,6 +2,7 @@
 
 pub mod check;
 mod conduct;
+mod idle;
 pub mod info;
 mod memory;
 pub mod plot;
