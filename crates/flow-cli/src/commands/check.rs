@@ -65,7 +65,7 @@ fn json(prediction: &Prediction, scene: &Scene) -> serde_json::Value {
 }
 
 fn warnings(prediction: &Prediction, scene: &Scene) -> Vec<String> {
-    room::warnings(prediction).into_iter().chain(idle::warnings(scene)).collect()
+    room::warnings(prediction).into_iter().chain(idle::warnings(prediction, scene)).collect()
 }
 
 fn table(prediction: &Prediction, scene: &Scene) -> String {

@@ -11,7 +11,7 @@ use super::seconds::Spending;
 use super::setup::Setup;
 use super::setup_error::SetupError;
 use super::simulation::Simulation;
-use crate::flow::MetricRole;
+use crate::flow::{Kept, MetricRole};
 use crate::geometry::Layout;
 
 /// Prediction of a run. Steps, time and most nodes are rough: within a factor of two for the shipped scenes.
@@ -37,6 +37,8 @@ pub struct Prediction {
     pub integration_seconds: f64,
     /// Seconds for frames and the file.
     pub output_seconds: f64,
+    /// What the flow keeps, whatever the energy.
+    pub kept: Kept,
     /// What this was measured on.
     pub trial: Trial,
 }
@@ -90,7 +92,7 @@ const FILE_BYTES_PER_SECOND: f64 = 300e6;
 pub fn predict(scene: &Scene) -> Result<Prediction, SetupError> {
     let scene = &scene.clone().checked()?;
     let layout = start(scene)?;
-    let Run { record, step_ends, kept_per_square } = run_trial(&trial_scene(scene))?;
+    let Run { record, step_ends, kept, kept_per_square } = run_trial(&trial_scene(scene))?;
     let trial = Trial {
         tolerance: trial_tolerance(scene),
         time: record.steps.time.last().copied().unwrap_or(0.0),
@@ -125,6 +127,7 @@ pub fn predict(scene: &Scene) -> Result<Prediction, SetupError> {
         steps: steps * finer,
         integration_seconds: seconds * finer,
         output_seconds: seconds_per_node * (frames * most_nodes) as f64 + file_bytes / FILE_BYTES_PER_SECOND,
+        kept,
         trial,
     })
 }
@@ -155,6 +158,7 @@ struct Run {
     record: Record,
     /// Seconds of integration until the end of each step.
     step_ends: Vec<f64>,
+    kept: Kept,
     /// Most bytes that the terms of the energy kept, per square of the number of nodes.
     kept_per_square: f64,
 }
@@ -162,6 +166,7 @@ struct Run {
 fn run_trial(scene: &Scene) -> Result<Run, SetupError> {
     let start = Instant::now();
     let mut simulation = Simulation::new(scene)?;
+    let kept = simulation.keeps();
     let (mut step_ends, mut seconds, mut kept_per_square) = (Vec::new(), 0.0, 0.0_f64);
     let mut under_way = true;
     while under_way && start.elapsed().as_secs_f64() < patience(step_ends.len()) {
@@ -172,7 +177,7 @@ fn run_trial(scene: &Scene) -> Result<Run, SetupError> {
         let nodes = simulation.layout().nodes() as f64;
         kept_per_square = kept_per_square.max(simulation.kept_bytes() / nodes.powi(2));
     }
-    Ok(Run { record: simulation.into_record(), step_ends, kept_per_square })
+    Ok(Run { record: simulation.into_record(), step_ends, kept, kept_per_square })
 }
 
 /// Seconds of a trial that has taken so many steps: a few more for a few steps that tell something.

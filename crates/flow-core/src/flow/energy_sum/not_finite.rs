@@ -122,7 +122,7 @@ impl EnergySum {
     }
 
     /// The jet of the densities of slopes, and what they are evaluated on.
-    fn slope_jet(&self) -> Option<(&Jet, Fields<'_>)> {
+    pub(super) fn slope_jet(&self) -> Option<(&Jet, Fields<'_>)> {
         match (&self.moving, &self.slopes) {
             (Some(moving), _) => Some(moving.flux_jet()),
             (None, Some(slopes)) => Some(slopes.jet()),

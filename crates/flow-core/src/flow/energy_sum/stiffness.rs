@@ -57,20 +57,19 @@ impl EnergySum {
 
     fn freeze_second(&mut self) {
         let (fields, nodes) = (self.layout.fields(), self.layout.nodes());
-        let at_flux = match (&self.moving, &self.slopes) {
-            (Some(moving), _) => moving.flux_jet().0,
-            (None, Some(slopes)) => slopes.jet().0,
-            (None, None) => return,
-        };
-        for (pair, out) in self.implicit_second.chunks_exact_mut(nodes).enumerate() {
-            let (a, b) = (pair / fields, pair % fields);
-            let (own, between) = (self.jet.second(a, b), at_flux.second(a, b));
-            let mut before = between[nodes - 1];
-            for ((out, own), after) in out.iter_mut().zip(own).zip(between) {
-                *out = own + 0.5 * (before + after);
-                before = *after;
+        let mut implicit = std::mem::take(&mut self.implicit_second);
+        if let Some((at_flux, _)) = self.slope_jet() {
+            for (pair, out) in implicit.chunks_exact_mut(nodes).enumerate() {
+                let (a, b) = (pair / fields, pair % fields);
+                let (own, between) = (self.jet.second(a, b), at_flux.second(a, b));
+                let mut before = between[nodes - 1];
+                for ((out, own), after) in out.iter_mut().zip(own).zip(between) {
+                    *out = own + 0.5 * (before + after);
+                    before = *after;
+                }
             }
         }
+        self.implicit_second = implicit;
     }
 
     /// Takes the second derivatives at the state evaluated last.

@@ -106,7 +106,7 @@ impl GradientFlow {
             velocity: vec![0.0; layout.nodes()],
             spectrum: vec![Complex64::default(); layout.modes()],
         };
-        let tension = FrozenTension::new(layout, energy.depends_on_positions());
+        let tension = FrozenTension::new(layout, &energy);
         Self {
             energy,
             descent,

@@ -1,6 +1,7 @@
 //! The tension of the curve at the linearisation, for products and for preconditioners. See `THEORY.md`, eqs. (F20) and (F21).
 
 use super::{Descent, GradientFlow};
+use crate::flow::energy_sum::EnergySum;
 use crate::flow::intrinsic_gradient::IntrinsicGradient;
 use crate::geometry::vectors::{add_product, add_scaled, mean};
 use crate::geometry::{Complex64, Layout};
@@ -10,7 +11,7 @@ use crate::geometry::{Complex64, Layout};
 pub struct FrozenTension {
     /// Minus the tension at each node: Z − ⟨wZ⟩ − π less its mean, or less what holds every piece of the curve, where that is held.
     pub stretching: Vec<f64>,
-    /// Derivatives of the gradient along the curve, by field; empty where no term depends on positions.
+    /// Derivatives of the gradient along the curve, by field; empty where J does without what the fields do to the tension.
     slopes: Vec<f64>,
     /// Mean over the nodes of the tension that symbols hold.
     mean: f64,
@@ -21,12 +22,15 @@ pub struct FrozenTension {
 }
 
 impl FrozenTension {
-    /// For states of `layout`, and terms of which some depend on positions or none.
-    pub fn new(layout: Layout, depends_on_positions: bool) -> Self {
-        let room = |size: usize| if depends_on_positions { size } else { 0 };
-        let (nodes, spectra) = (layout.nodes(), room(layout.state_fields() * layout.modes()));
+    /// For states of `layout` with this `energy`.
+    pub fn new(layout: Layout, energy: &EnergySum) -> Self {
+        let room = |size: usize, needed: bool| if needed { size } else { 0 };
+        let (nodes, positions) = (layout.nodes(), energy.depends_on_positions());
+        let spectra = room(layout.state_fields() * layout.modes(), positions);
         let held = IntrinsicGradient { spectra: vec![Complex64::default(); spectra], by_length: 0.0 };
-        let slopes = vec![0.0; room(layout.fields() * nodes)];
+        // Nodes that only move along the normal have no tension of W.
+        let moves = positions && !energy.is_of_positions_alone() && layout.metric().is_none();
+        let slopes = vec![0.0; room(layout.fields() * nodes, moves)];
         Self { stretching: vec![0.0; nodes], slopes, mean: 0.0, holding: vec![0.0; nodes], held }
     }
 }
@@ -54,9 +58,15 @@ impl GradientFlow {
     /// for that of line energies, which it does not cancel.
     fn freeze_tension_of_positions(&mut self) {
         self.hold_area();
+        if self.energy.is_of_positions_alone() {
+            // Hess alone damps what rounding does to short waves under a pressure that shrinks the curve; with the tension nothing does.
+            return; // what is frozen stays zero
+        }
         let Self { energy, descent: Descent { map, force, .. }, frozen, tension, .. } = self;
         let FrozenTension { stretching, slopes, holding, held, mean: tension } = tension;
-        map.set_slopes(&held.spectra, slopes);
+        if !slopes.is_empty() {
+            map.set_slopes(&held.spectra, slopes);
+        }
         map.stretching(&frozen.fields, &held.spectra, held.by_length, stretching);
         if frozen.mobility.keeps().length {
             map.complete_force(&frozen.fields, &held.spectra, stretching, force);
@@ -66,11 +76,6 @@ impl GradientFlow {
         let local = energy.gradient_without_positions();
         map.stretching(&frozen.fields, &local.spectra, local.by_length, force);
         *tension = mean(holding) + energy.line_tension() - mean(force);
-        if energy.is_of_positions_alone() {
-            // Hess alone damps what rounding does to short waves under a pressure that shrinks the curve; with the tension nothing does.
-            stretching.fill(0.0);
-            *tension = 0.0;
-        }
     }
 
     /// Adds to the force what the last motion of the second derivative does to it by the tension, and to the tension.
@@ -78,7 +83,7 @@ impl GradientFlow {
         let Self { energy, descent: Descent { map, force, layout, .. }, frozen, tension, .. } = self;
         let motion = energy.field_motion();
         add_product(force, &tension.stretching, &motion[layout.field(0)]);
-        if energy.depends_on_positions() && !energy.is_of_positions_alone() {
+        if !tension.slopes.is_empty() {
             map.add_change_of_stretching(&frozen.fields, motion, &tension.slopes, force);
         }
     }

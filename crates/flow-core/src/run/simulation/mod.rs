@@ -22,6 +22,7 @@ pub use resume::{Memory, ResumeError};
 use saving::FrameRoom;
 
 use crate::energies::TermFault;
+use crate::flow::Kept;
 use crate::geometry::Layout;
 use crate::integrator::{Adaptive, Clocked, Counters, IntegrationError, Multistep, StepReport, Stepper};
 use crate::run::adaptation::Adaptation;
@@ -215,6 +216,11 @@ impl Simulation {
         let mut nodal = vec![0.0; self.on.membrane.layout().len()];
         self.on.membrane.flow().decode(self.integration.stepper().state(), &mut nodal);
         nodal
+    }
+
+    /// What the flow keeps, whatever the energy.
+    pub(super) fn keeps(&mut self) -> Kept {
+        self.on.membrane.flow().normal_mobility().keeps()
     }
 
     /// Bytes that the terms of the energy keep for second derivatives.
