@@ -6,7 +6,7 @@ import io
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import Any, NamedTuple
 
 from . import _curveflow
@@ -66,11 +66,18 @@ def run(
     return result
 
 
-@contextmanager
-def watching(
-    progress: bool, callback: Callable[[Progress], object] | None
-) -> Iterator[tuple[Callable[..., None] | None, float]]:
+_Watch = tuple[Callable[..., None] | None, float]
+_UNWATCHED = nullcontext[_Watch]((None, 0.0))
+
+
+def watching(progress: bool, callback: Callable[[Progress], object] | None) -> AbstractContextManager[_Watch]:
     """What the extension calls during a run, and how often; takes the line of progress away afterwards."""
+    # Small runs, of some microseconds, feel a context of their own.
+    return _watched(progress, callback) if progress or callback is not None else _UNWATCHED
+
+
+@contextmanager
+def _watched(progress: bool, callback: Callable[[Progress], object] | None) -> Iterator[_Watch]:
     line = Line() if progress else None
     watch, interval = None, 0.0
     if callback is not None:

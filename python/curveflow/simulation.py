@@ -251,15 +251,17 @@ class Simulation:
         """
         if math.isnan(until):
             raise ValueError("until = nan must be a time")
-        goes_on = self._call_due()
+        native, goes_on = self._native, self._call_due()
         with watching(progress, callback) as (watch, interval):
-            while goes_on and not self._native.has_reached(until) and not self.done:
-                goes_on = self._native.run_until(*self._next_call(until), watch, interval)
-                goes_on = self._call_due() and goes_on
+            while goes_on:
+                goes_on = native.run_until(*self._next_call(until), watch, interval)
+                goes_on = self._call_due() and goes_on and not native.has_reached(until)
         return not self.done
 
     def _next_call(self, until: float) -> tuple[float, int]:
         time, steps = until, _ALL_STEPS
+        if not self._scheduled:
+            return time, steps
         end = min(until, self._native.end)
         for scheduled in self._scheduled:
             if scheduled.steps is not None:

@@ -66,6 +66,10 @@ impl Observer for Watcher {
             }
         }
     }
+
+    fn takes_time(&self) -> bool {
+        self.callback.is_some()
+    }
 }
 
 /// None for what stops a run without being an error.

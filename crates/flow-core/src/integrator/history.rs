@@ -24,6 +24,7 @@ pub struct Weights {
 
 /// Lagrange weights at `time` of the polynomial through `times`.
 #[must_use]
+#[inline] // or derivatives that nobody asked for cost as much as the values
 pub fn lagrange(time: f64, times: &[f64]) -> Weights {
     let mut weights = Weights::default();
     for (j, tj) in times.iter().enumerate() {

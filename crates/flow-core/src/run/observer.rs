@@ -27,6 +27,11 @@ pub struct Progress {
 pub trait Observer {
     /// Called after every accepted step; `Break` stops the run, which keeps what it has.
     fn after_step(&mut self, progress: &Progress) -> ControlFlow<()>;
+
+    /// Whether that may take a time to speak of, which a run then clocks for its record.
+    fn takes_time(&self) -> bool {
+        true
+    }
 }
 
 /// An observer that watches nothing.
@@ -36,5 +41,9 @@ pub struct Quiet;
 impl Observer for Quiet {
     fn after_step(&mut self, _: &Progress) -> ControlFlow<()> {
         ControlFlow::Continue(())
+    }
+
+    fn takes_time(&self) -> bool {
+        false
     }
 }

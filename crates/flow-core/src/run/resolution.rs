@@ -1,6 +1,7 @@
 //! How many nodes a state needs, and how many the fronts that a scene names will need. See `THEORY.md`, eq. (D11).
 
 use std::f64::consts::TAU;
+use std::sync::LazyLock;
 
 use super::floors::least_mean_square;
 use super::scene::{Length, Scene};
@@ -59,15 +60,15 @@ pub fn needed_nodes(layout: Layout, state: &[f64], aim: f64, family: DerivativeF
     let part = |nodes: usize| unresolved(layout, state, nodes, family);
     let now = part(nodes);
     if now <= aim {
-        let fewer = sizes().take_while(|size| *size < nodes).find(|size| part(*size) <= aim);
-        return fewer.unwrap_or(nodes);
+        let fewer = SIZES.iter().take_while(|size| **size < nodes).find(|size| part(**size) <= aim);
+        return fewer.copied().unwrap_or(nodes);
     }
     if let Some(order) = family.order()
         && unresolved(layout, state, nodes, DerivativeFamily::Fourier) <= aim
     {
-        let more = sizes().skip_while(|size| *size <= nodes).find(|size| part(*size) <= aim);
+        let more = SIZES.iter().skip_while(|size| **size <= nodes).find(|size| part(**size) <= aim);
         let beyond = |most: usize| most as f64 * (part(most) / aim).powf(1.0 / f64::from(order));
-        return more.unwrap_or_else(|| beyond(2 * MOST_NODES).ceil() as usize);
+        return more.copied().unwrap_or_else(|| beyond(2 * MOST_NODES).ceil() as usize);
     }
     // As if the spectrum fell on as it does over the last modes.
     let before = 3 * nodes / 4;
@@ -90,24 +91,19 @@ pub fn fronts(scene: &Scene, initial_length: f64) -> f64 {
 }
 
 /// Numbers 2ᵃ3ᵇ of nodes, a ≥ 3, in increasing order, whose transforms are fast.
-fn sizes() -> impl Iterator<Item = usize> {
-    let mut sizes: Vec<usize> = Vec::new();
-    let mut power_of_three = 8;
-    while power_of_three <= 2 * MOST_NODES {
-        let mut size = power_of_three;
-        while size <= 2 * MOST_NODES {
-            sizes.push(size);
-            size *= 2;
-        }
-        power_of_three *= 3;
-    }
+static SIZES: LazyLock<Vec<usize>> = LazyLock::new(|| {
+    let powers = |first: usize, factor: usize| {
+        std::iter::successors(Some(first), move |size| Some(factor * size))
+            .take_while(|size| *size <= 2 * MOST_NODES)
+    };
+    let mut sizes: Vec<usize> = powers(8, 3).flat_map(|first| powers(first, 2)).collect();
     sizes.sort_unstable();
-    sizes.into_iter()
-}
+    sizes
+});
 
 /// The least fast size that is at least `least`, twice the most nodes at most.
 pub fn size_above(least: f64) -> usize {
-    sizes().find(|size| *size as f64 >= least).unwrap_or(2 * MOST_NODES)
+    SIZES.iter().copied().find(|size| *size as f64 >= least).unwrap_or(2 * MOST_NODES)
 }
 
 #[cfg(test)]

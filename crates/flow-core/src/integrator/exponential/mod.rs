@@ -146,9 +146,10 @@ impl Exponential {
     /// A change by what the last `points` values of N miss at the prediction, along the `polynomial` for their θ.
     fn correction(&self, points: usize, polynomial: fn(&[f64]) -> Coefficients) -> Correction {
         let nodes = &self.nodes[..points];
-        let (weights, polynomial) = (weights_at_end(nodes), polynomial(nodes));
+        let (weights, mut polynomial) = (weights_at_end(nodes), polynomial(nodes));
         let terms = self.substitution.terms(points + 1);
-        Correction { points, weights, terms, polynomial: self.substitution.in_theta(polynomial) }
+        self.substitution.take_to_theta(std::iter::once(&mut polynomial));
+        Correction { points, weights, terms, polynomial }
     }
 
     /// `changes` by the `corrections`, in the original basis.
@@ -208,7 +209,7 @@ impl Stepper for Exponential {
         self.integrals.serve_order(self.pace.order + 2);
         self.norm.rescale(problem, self.states.state(0));
         let (clock, order) = (StepClock::new(self.pace.stretch * self.pace.step), self.pace.order);
-        self.substitution = Substitution::new(clock, order + FOR_CLOCKS);
+        self.substitution.set(clock, order + FOR_CLOCKS);
         self.nodes = self.nodes_by(self.states.len(), clock);
         self.moments.set(self.pace.step, self.part.rates(), self.substitution.terms(order + 3));
         self.predict();

@@ -3,6 +3,8 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
+use multiversion::multiversion;
+
 use super::orders::MOST_MOMENTS;
 use super::polynomials::{Coefficients, lagrange_basis};
 use crate::integrator::clock::stretched;
@@ -62,20 +64,19 @@ pub struct Substitution {
 impl Substitution {
     /// By polynomials of `terms` coefficients.
     pub fn new(clock: StepClock, terms: usize) -> Self {
-        let mut powers = [[0.0; MOST_MOMENTS]; MOST_MOMENTS];
+        let mut substitution = Self { clock, terms, powers: [[0.0; MOST_MOMENTS]; MOST_MOMENTS] };
+        substitution.set(clock, terms);
+        substitution
+    }
+
+    /// Becomes that of another clock.
+    pub fn set(&mut self, clock: StepClock, terms: usize) {
+        (self.clock, self.terms) = (clock, terms);
         if clock.run != 0.0 {
             let Interpolation { points, basis } = &INTERPOLATIONS[terms];
-            for (point, polynomial) in points.iter().zip(&basis[..terms]) {
-                let (u, mut power) = (clock.at(*point), 1.0);
-                for coefficients in &mut powers[..terms] {
-                    for (coefficient, c) in coefficients.iter_mut().zip(polynomial) {
-                        *coefficient += power * c;
-                    }
-                    power *= u;
-                }
-            }
+            let values: [f64; MOST_MOMENTS] = std::array::from_fn(|i| clock.at(points[i]));
+            interpolate_powers(&values[..terms], basis, &mut self.powers);
         }
-        Self { clock, terms, powers }
     }
 
     /// The clock.
@@ -91,23 +92,44 @@ impl Substitution {
     /// The Lagrange polynomials of `nodes`, values of u, as polynomials in θ.
     pub fn lagrange_basis(&self, nodes: &[f64]) -> [Coefficients; MOST_MOMENTS] {
         let mut basis = lagrange_basis(nodes);
-        basis[..nodes.len()].iter_mut().for_each(|polynomial| *polynomial = self.in_theta(*polynomial));
+        self.take_to_theta(basis[..nodes.len()].iter_mut());
         basis
     }
 
-    /// A polynomial in u as one in θ.
-    pub fn in_theta(&self, polynomial: Coefficients) -> Coefficients {
-        if self.clock.run == 0.0 {
-            return polynomial;
+    /// Makes polynomials in θ of `polynomials` in u.
+    pub fn take_to_theta<'a>(&self, polynomials: impl Iterator<Item = &'a mut Coefficients>) {
+        if self.clock.run != 0.0 {
+            polynomials.for_each(|polynomial| substitute(&self.powers[..self.terms], polynomial));
         }
-        let mut sum = [0.0; MOST_MOMENTS];
-        for (coefficient, power) in polynomial.iter().zip(&self.powers) {
-            for (sum, c) in sum.iter_mut().zip(power) {
-                *sum += coefficient * c;
-            }
-        }
-        sum
     }
+}
+
+/// `powers` = the polynomials in θ of the `basis` with the powers of `values` at its points.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn interpolate_powers(values: &[f64], basis: &[Coefficients], powers: &mut [Coefficients]) {
+    let powers = &mut powers[..values.len()];
+    powers.fill([0.0; MOST_MOMENTS]);
+    for (value, polynomial) in values.iter().zip(basis) {
+        let mut power = 1.0;
+        for coefficients in &mut *powers {
+            for k in 0..MOST_MOMENTS {
+                coefficients[k] += power * polynomial[k];
+            }
+            power *= value;
+        }
+    }
+}
+
+/// The powers in place of u.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn substitute(powers: &[Coefficients], polynomial: &mut Coefficients) {
+    let mut sum = [0.0; MOST_MOMENTS];
+    for (coefficient, power) in polynomial.iter().zip(powers) {
+        for k in 0..MOST_MOMENTS {
+            sum[k] += coefficient * power[k];
+        }
+    }
+    *polynomial = sum;
 }
 
 #[cfg(test)]
@@ -119,12 +141,17 @@ mod tests {
         polynomial.iter().rev().fold(0.0, |sum, c| sum * x + c)
     }
 
+    fn in_theta(substitution: &Substitution, mut polynomial: Coefficients) -> Coefficients {
+        substitution.take_to_theta([&mut polynomial].into_iter());
+        polynomial
+    }
+
     /// Largest error on the step of u^`degree` as a polynomial for steps of order `order`.
     fn error(run: f64, order: usize, degree: usize) -> f64 {
         let clock = StepClock::new(run);
         let mut power = [0.0; MOST_MOMENTS];
         power[degree] = 1.0;
-        let polynomial = Substitution::new(clock, order + FOR_CLOCKS).in_theta(power);
+        let polynomial = in_theta(&Substitution::new(clock, order + FOR_CLOCKS), power);
         (0..=100).map(|i| f64::from(i) / 100.0).fold(0.0, |most: f64, theta| {
             most.max((at(&polynomial, theta) - clock.at(theta).powi(degree as i32)).abs())
         })
@@ -134,7 +161,7 @@ mod tests {
     fn time_itself_changes_nothing() {
         let substitution = Substitution::new(StepClock::new(0.0), 7);
         let polynomial: Coefficients = std::array::from_fn(|i| 1.0 / (i as f64 - 2.5));
-        assert_eq!(substitution.in_theta(polynomial), polynomial);
+        assert_eq!(in_theta(&substitution, polynomial), polynomial);
         assert_eq!(substitution.terms(3), 3);
         assert_eq!(substitution.clock().nodes(&[3.0, 2.0], 2.0, 4.0)[..2], [0.25, 0.0]);
     }
@@ -153,7 +180,7 @@ mod tests {
     fn both_ends_are_exact() {
         let substitution = Substitution::new(StepClock::new(0.7), 8);
         let polynomial: Coefficients = std::array::from_fn(|i| if i < 5 { 0.5 - i as f64 } else { 0.0 });
-        let taken = substitution.in_theta(polynomial);
+        let taken = in_theta(&substitution, polynomial);
         assert!((at(&taken, 0.0) - at(&polynomial, 0.0)).abs() < 1e-10);
         assert!((at(&taken, 1.0) - at(&polynomial, 1.0)).abs() < 1e-10);
     }

@@ -73,6 +73,18 @@ pub(super) enum Way {
     Regraded(Option<Arc<Grading>>, Box<Regrading>),
 }
 
+/// What a state leaves unresolved.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Glance {
+    /// The field that is resolved least, and the part of it that is not.
+    field: usize,
+    part: f64,
+    /// Whether the solution slides off its crowds.
+    slides: bool,
+    /// Steps on the same nodes.
+    age: u64,
+}
+
 /// What a look at the nodes found.
 #[derive(Clone, Debug)]
 pub(super) enum Look {
@@ -101,29 +113,34 @@ impl Adaptation {
         })
     }
 
-    /// Whether other nodes are better for the spectral `state` of `membrane` at `time`, which has been on those of `mesh` for
-    /// `age` steps.
-    pub(super) fn look(
-        &self,
-        membrane: &mut Membrane,
-        (time, state): (f64, &[f64]),
-        mesh: &Mesh,
-        age: u64,
-    ) -> Look {
+    /// Whether the nodes are to be looked at for the spectral `state` of `membrane`, which has been on them for `age` steps: with what
+    /// they leave unresolved, if so.
+    pub(super) fn glance(&self, membrane: &mut Membrane, state: &[f64], age: u64) -> Option<Glance> {
         let layout = membrane.layout();
-        let family = self.families[usize::from(membrane.flow().grading().is_some())];
+        let family = self.family(membrane);
         let (field, part) = least_resolved(layout, state, layout.nodes(), family);
         let resolved = part <= self.bound;
         let slides = self.grades && resolved && part > SLIDING * self.bound;
-        let looks = if self.grades {
+        let due = if self.grades {
             let soon = age > 1 && (age < FIRST_LOOK || age.is_multiple_of(LOOKS));
             (slides && soon) || (age >= FIRST_LOOK && age.is_power_of_two())
         } else {
             age > 0 && age.is_multiple_of(LOOKS)
         };
-        if resolved && !looks {
-            return Look::Serve;
-        }
+        (due || !resolved).then_some(Glance { field, part, slides, age })
+    }
+
+    /// Whether other nodes are better for the spectral `state` of `membrane` at `time`, on those of `mesh`, after a `glance`.
+    pub(super) fn look(
+        &self,
+        membrane: &mut Membrane,
+        (time, state): (f64, &[f64]),
+        mesh: &Mesh,
+        glance: Glance,
+    ) -> Look {
+        let Glance { field, part, slides, age } = glance;
+        let (layout, family) = (membrane.layout(), self.family(membrane));
+        let resolved = part <= self.bound;
         let equidistant = self.fewest_equidistant(membrane, state);
         let least = equidistant * sparsest(membrane.flow().grading());
         let resolved = resolved && mesh.nodes as f64 >= least;
@@ -157,6 +174,11 @@ impl Adaptation {
         } else {
             Look::Unresolved
         }
+    }
+
+    /// The derivatives on the nodes at hand.
+    fn family(&self, membrane: &mut Membrane) -> DerivativeFamily {
+        self.families[usize::from(membrane.flow().grading().is_some())]
     }
 
     /// Equidistant nodes that the energies of positions ask for.

@@ -28,7 +28,7 @@ impl Clocks {
 
     /// What happens after a step but has a clock of its own.
     pub fn aside(&self) -> f64 {
-        self.remaps + self.frames
+        self.remaps + self.frames + self.observers
     }
 
     /// The seconds of the run, of which one evaluation takes `costs`.

@@ -114,17 +114,17 @@ impl Simulation {
     /// The step of a run that has not stopped, which began at `clock`; returns its end, where the next one may begin: a look at the
     /// clock takes a hundredth of a step of few nodes.
     fn step_since(&mut self, clock: Instant, observer: &mut dyn Observer) -> Instant {
+        let aside = self.clocks.aside();
         let watch = &mut self.clocks.watch;
         watch.start_step();
         let report = self.integration.step(&mut Clocked::new(&mut self.on.membrane, watch));
         watch.end_step();
         let fault = self.on.membrane.flow().fault();
-        let (seconds, aside) = (clock.elapsed().as_secs_f64(), self.clocks.aside());
-        self.record.counters.integration_seconds += seconds;
-        self.clocks.integration += seconds;
         self.after_step(report, fault, observer);
         let end = Instant::now();
-        self.clocks.observers += (end - clock).as_secs_f64() - seconds - (self.clocks.aside() - aside);
+        let seconds = (end - clock).as_secs_f64() - (self.clocks.aside() - aside);
+        self.record.counters.integration_seconds += seconds;
+        self.clocks.integration += seconds;
         end
     }
 
@@ -182,8 +182,8 @@ impl Simulation {
             .is_some_and(|watch| watch.reached(report.time, report.energy, report.settled_dissipation))
     }
 
-    fn tell(&self, report: &StepReport, observer: &mut dyn Observer) -> ControlFlow<()> {
-        observer.after_step(&Progress {
+    fn tell(&mut self, report: &StepReport, observer: &mut dyn Observer) -> ControlFlow<()> {
+        let progress = Progress {
             time: report.time,
             end: self.end,
             steps: self.integration.counters().steps,
@@ -191,7 +191,14 @@ impl Simulation {
             energy: report.energy,
             dissipation: report.dissipation,
             length: self.length(),
-        })
+        };
+        if !observer.takes_time() {
+            return observer.after_step(&progress);
+        }
+        let clock = Instant::now();
+        let asked = observer.after_step(&progress);
+        self.clocks.observers += clock.elapsed().as_secs_f64();
+        asked
     }
 
     fn log(&mut self, report: &StepReport) {

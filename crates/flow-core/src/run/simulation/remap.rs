@@ -24,11 +24,12 @@ impl Simulation {
     /// Takes other nodes if the state at hand asks for them or allows it.
     pub(super) fn adapt(&mut self, time: f64, energy: f64) {
         let Some(adaptation) = &self.adaptation else { return self.count_unresolved() };
-        let clock = Instant::now();
         let age = self.counters().steps - self.on.remapped_at;
         let state = self.integration.stepper().state();
+        let Some(glance) = adaptation.glance(&mut self.on.membrane, state, age) else { return };
+        let clock = Instant::now();
         let (served, failure) =
-            match adaptation.look(&mut self.on.membrane, (time, state), &self.on.mesh, age) {
+            match adaptation.look(&mut self.on.membrane, (time, state), &self.on.mesh, glance) {
                 Look::Serve => (true, None),
                 Look::Change(plan) => {
                     let (fewer, more) =
