@@ -24,6 +24,7 @@ mod stepper;
 mod stopwatch;
 
 pub use adaptive::{Adaptive, AdaptiveOptions};
+pub(crate) use balance::ENERGY_ROUNDING;
 pub use bdf::Bdf;
 pub use error::IntegrationError;
 pub use error_norm::ErrorNorm;

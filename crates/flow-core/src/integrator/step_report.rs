@@ -13,6 +13,8 @@ pub struct StepReport {
     pub order: usize,
     /// Energy at its end.
     pub energy: f64,
+    /// Energy that it lost, known to its rounding.
+    pub lost: f64,
     /// Dissipation at its end.
     pub dissipation: f64,
     /// Dissipation there without what the implicit solve left in stiff modes, which dies before the next step.

@@ -67,7 +67,7 @@ impl<S: Stepper> Adaptive<S> {
     /// # Errors
     /// [`IntegrationError`]; the last accepted state stays.
     pub fn step(&mut self, problem: &mut dyn Problem) -> Result<StepReport, IntegrationError> {
-        let start = self.stepper.time();
+        let (start, before) = (self.stepper.time(), self.energy);
         if self.counters.steps >= self.options.most_steps {
             let steps = self.counters.steps;
             return Err(self.cause(problem, IntegrationError::TooManySteps { time: start, steps }));
@@ -96,6 +96,7 @@ impl<S: Stepper> Adaptive<S> {
                         size,
                         order: self.stepper.order(),
                         energy,
+                        lost: before - energy,
                         dissipation,
                         settled_dissipation,
                         rejections,

@@ -177,9 +177,7 @@ impl Simulation {
     }
 
     fn at_rest(&mut self, report: &StepReport) -> bool {
-        self.equilibrium
-            .as_mut()
-            .is_some_and(|watch| watch.reached(report.time, report.energy, report.settled_dissipation))
+        self.equilibrium.as_mut().is_some_and(|watch| watch.reached(report))
     }
 
     fn tell(&mut self, report: &StepReport, observer: &mut dyn Observer) -> ControlFlow<()> {
