@@ -6,7 +6,7 @@ use multiversion::multiversion;
 
 use super::Order;
 use super::differentiated::Differentiated;
-use crate::expression::{Expression, ExpressionError};
+use crate::expression::{Expression, ExpressionError, Program};
 
 /// G(q) with its derivatives.
 #[derive(Clone, Debug)]
@@ -32,6 +32,8 @@ pub enum CutOff {
 const ROUNDING: f64 = 1e-16;
 /// Squared distances tried, per octave, and octaves below and above the squared length of the curve.
 const PER_OCTAVE: i32 = 16;
+/// … and how many are looked at for each of them: a shell of the kernel that is narrower than half a percent would be missed.
+const LOOKS: i32 = 8;
 const OCTAVES_BELOW: i32 = 40;
 const OCTAVES_ABOVE: i32 = 10;
 /// Numbers of nodes tried for the distance that a kernel asks for.
@@ -115,17 +117,23 @@ fn cut(squares: &[f64], largest_square: f64, values: &mut [f64]) {
 /// The squared distance beyond which a kernel and its derivative stay below rounding; infinite if there is none
 /// near `square`.
 fn end_of_support(kernel: &Expression, first: &Expression, square: f64) -> f64 {
-    let tried = |k: i32| square * (f64::from(k) / f64::from(PER_OCTAVE)).exp2();
-    let range = -OCTAVES_BELOW * PER_OCTAVE..=OCTAVES_ABOVE * PER_OCTAVE;
-    let squares: Vec<f64> = std::iter::once(0.0).chain(range.map(tried)).collect();
+    let octaves = |k: i32| f64::from(k) / f64::from(LOOKS * PER_OCTAVE);
+    let tried = |k: i32| square * octaves(k).exp2();
+    let [lowest, highest] = [-OCTAVES_BELOW, OCTAVES_ABOVE].map(|octaves| octaves * LOOKS * PER_OCTAVE);
+    let squares: Vec<f64> = std::iter::once(0.0).chain((lowest..=highest).map(tried)).collect();
     let last_above = |of: &Expression| {
-        let values: Vec<f64> = squares.iter().map(|q| of.evaluate(&[*q]).abs()).collect();
-        let largest = values.iter().copied().filter(|value| value.is_finite()).fold(0.0, f64::max);
+        let (program, mut values) = (Program::compile(&[of]), vec![0.0; squares.len()]);
+        let mut scratch = vec![0.0; program.scratch_len()];
+        program.evaluate(&[&squares], &mut [&mut values], &mut scratch);
+        let largest = values.iter().map(|value| value.abs()).filter(|value| value.is_finite());
+        let bound = ROUNDING * largest.fold(0.0, f64::max);
         // What is no number is not small.
-        values.iter().rposition(|value| value.is_nan() || *value > ROUNDING * largest).unwrap_or(0)
+        values.iter().rposition(|value| value.is_nan() || value.abs() > bound).unwrap_or(0)
     };
-    let last = last_above(kernel).max(last_above(first));
-    squares.get(last + 1).copied().unwrap_or(f64::INFINITY)
+    let last = last_above(kernel).max(last_above(first)) as i32;
+    // The next one that is tried, but for what is only looked at.
+    let next = if last == 0 { lowest } else { LOOKS * (lowest + last - 1).div_euclid(LOOKS) + LOOKS };
+    if next > highest { f64::INFINITY } else { tried(next) }
 }
 
 #[cfg(test)]
@@ -163,5 +171,13 @@ mod tests {
         assert_eq!(automatic("q"), f64::INFINITY);
         assert_eq!(automatic("1/(1 + q)"), f64::INFINITY);
         assert!(automatic("0").is_finite());
+    }
+
+    #[test]
+    fn a_narrow_shell_beyond_the_core_is_found() {
+        for centre in [3.9, 3.93, 3.975, 4.0, 4.02, 4.05] {
+            let distance = automatic(&format!("exp(-400*q) - 5*exp(-((q - {centre})/0.01)^2)"));
+            assert!(distance.powi(2) > centre, "{centre}: {distance}");
+        }
     }
 }

@@ -72,7 +72,7 @@ impl Axis {
     /// The values that have labels.
     pub fn ticks(&self) -> Vec<f64> {
         if !self.logarithmic {
-            return self.as_linear().key_points(self.labels);
+            return self.round_values();
         }
         let decades = self.decades().count();
         if decades <= 2 || self.has_few_decades() {
@@ -85,6 +85,15 @@ impl Axis {
         }
         let every = decades.div_ceil(self.labels).max(1);
         self.decades().step_by(every).map(|exponent| 10_f64.powi(exponent)).collect()
+    }
+
+    /// Round values on a linear axis: of one that is some units long, since `plotters` takes for zero what is small beside one.
+    fn round_values(&self) -> Vec<f64> {
+        let exponent = (self.high - self.low).log10().floor().clamp(-300.0, 300.0) as i32;
+        let unit = 10_f64.powi(exponent.abs());
+        let (shrunk, grown) = if exponent < 0 { (1.0, unit) } else { (unit, 1.0) };
+        let scaled: RangedCoordf64 = (self.low / shrunk * grown..self.high / shrunk * grown).into();
+        scaled.key_points(self.labels).into_iter().map(|value| value / grown * shrunk).collect()
     }
 
     /// The text at a tick, without what is in [`title`](Self::title).
@@ -187,6 +196,13 @@ mod tests {
         let small = Axis::linear(0.9e-6, 3.1e-6);
         assert_eq!(labels(small), ["1.0", "1.5", "2.0", "2.5", "3.0"]);
         assert_eq!(small.title("length"), "length  [10⁻⁶]");
+        for unit in [1e-26, 1e-15, 1.0, 1e20] {
+            assert_eq!(
+                labels(Axis::linear(0.9 * unit, 3.1 * unit)),
+                ["1.0", "1.5", "2.0", "2.5", "3.0"],
+                "{unit}"
+            );
+        }
         assert_eq!(labels(Axis::fitted([5.6, 320.0], 0.05)), ["5", "10", "20", "50", "100", "200"]);
     }
 

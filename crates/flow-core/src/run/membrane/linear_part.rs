@@ -9,6 +9,8 @@ use crate::integrator::LinearPart;
 /// Rate of the length over the slowest of the other rates from which on it is stiff.
 const STIFF: f64 = 100.0;
 const MOST_FIELDS: usize = LinearPart::MOST_FIELDS;
+/// Part of the fastest rate of the shortest waves by which another one may be off.
+const ROUNDING: f64 = 1e-12;
 
 /// Whether the derivatives of `flow` are diagonal in Fourier space.
 pub fn exists(flow: &GradientFlow) -> bool {
@@ -76,7 +78,10 @@ pub fn set(part: &mut LinearPart, flow: &mut GradientFlow) -> bool {
     part.fits(2 * fields * modes + 1) && !grows(part.rates(), fields, modes)
 }
 
-/// Whether the shortest waves grow: a flow that is not well posed, whose explosion exponential steps would follow for long.
+/// Whether the shortest waves grow: a flow that is not well posed, whose explosion exponential steps would follow for long. What does not
+/// move has the rate zero but for rounding.
 fn grows(rates: &[f64], fields: usize, modes: usize) -> bool {
-    (1..=fields).any(|field| rates[2 * field * modes - 1] > 0.0)
+    let shortest = || (1..=fields).map(|field| rates[2 * field * modes - 1]);
+    let rounding = ROUNDING * shortest().fold(0.0, |most: f64, rate| most.max(rate.abs()));
+    shortest().any(|rate| rate > rounding)
 }
