@@ -216,6 +216,9 @@ def _of_bytes(data: bytes) -> Result:
 def open(path: str | os.PathLike[str]) -> Result:
     """Read a result file, written by :meth:`Result.save` or by the command ``curveflow run``.
 
+    While a run to that file goes on, or once it was stopped, there is none yet: then this is what its newest checkpoint holds, with
+    the status ``"interrupted"``.
+
     Raises:
         StorageError: the file cannot be read, is none of ours, or is damaged.
     """

@@ -92,3 +92,18 @@ fn a_link_to_a_result_is_the_same_result() {
     assert_eq!(code(&resumed), 0, "{}", said(&resumed));
     assert_eq!(folder.record("link.h5"), folder.record("disk/real.h5"));
 }
+
+/// As after `kill -9`, or while the run goes on.
+#[test]
+fn a_run_without_a_result_yet_can_be_looked_at() {
+    let folder = Folder::new("so-far");
+    assert_eq!(code(&folder.call(&["run", "scene.toml", "-o", "out.h5", "--max-wall", "0"])), 6);
+    std::fs::remove_file(folder.0.join("out.h5")).unwrap();
+    let seen = folder.call(&["info", "out.h5"]);
+    assert_eq!(code(&seen), 0, "{}", said(&seen));
+    assert!(said(&seen).contains("not over") && said(&seen).contains("resume"), "{}", said(&seen));
+    assert!(String::from_utf8_lossy(&seen.stdout).contains("interrupted"));
+    assert_eq!(code(&folder.call(&["plot", "out.h5", "-o", "out.png"])), 0);
+    assert_eq!(folder.names(), ["out.h5.checkpoint-a", "out.png", "scene.toml"], "nothing is touched");
+    assert_eq!(code(&folder.call(&["info", "other.h5"])), 5);
+}

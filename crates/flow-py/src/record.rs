@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use flow_core::output::page::{self, PageError};
-use flow_core::output::{StorageError, hdf5_file};
+use flow_core::output::{StorageError, checkpoint, hdf5_file};
 use flow_core::run::{self as core, Frame, Rejections};
 use numpy::PyArray3;
 use pyo3::exceptions::{PyKeyError, PyValueError};
@@ -33,10 +33,10 @@ pub fn run(py: Python<'_>, scene: &Scene, callback: Option<Py<PyAny>>, interval:
     watcher.other(py).map_or(Ok(Record { core }), Err)
 }
 
-/// Reads a result file.
+/// Reads a result file, or what its run has so far.
 #[pyfunction]
 pub fn read(py: Python<'_>, path: PathBuf) -> PyResult<Record> {
-    Ok(Record { core: detached(py, || hdf5_file::read(&path))? })
+    Ok(Record { core: detached(py, || Ok::<_, StorageError>(checkpoint::so_far(&path)?.record))? })
 }
 
 #[pymethods]

@@ -3,10 +3,10 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use flow_core::output::hdf5_file;
 use flow_core::run::{Provenance, Record, Rejections, Share, StopReason, WhySlow, warnings};
 use serde_json::{Map, Value, json};
 
+use super::so_far::run_so_far;
 use crate::error::CliError;
 use crate::print::{self, harmless, number};
 
@@ -22,7 +22,7 @@ pub struct Args {
 
 /// Prints the summary.
 pub fn execute(args: &Args) -> Result<(), CliError> {
-    let record = hdf5_file::read(&args.out)?;
+    let record = run_so_far(&args.out)?;
     let rows = summary(&record);
     let why = WhySlow::of(&record);
     print::data(&if args.json {

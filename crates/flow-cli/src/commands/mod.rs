@@ -12,6 +12,7 @@ pub mod run;
 mod scene_args;
 pub mod scenes;
 pub mod schema;
+mod so_far;
 mod standing;
 pub mod tradeoff;
 pub mod view;

@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use flow_core::output::atomic_file::check_writable;
-use flow_core::output::{hdf5_file, picture};
+use flow_core::output::picture;
 use flow_core::run::nodal_polylines;
 
+use super::so_far::run_so_far;
 use crate::error::CliError;
 use crate::print;
 
@@ -29,7 +30,7 @@ pub struct Args {
 pub fn execute(args: &Args) -> Result<(), CliError> {
     let path = args.output.clone().unwrap_or_else(|| args.out.with_extension("png"));
     check_writable(&path, args.replace)?;
-    let record = hdf5_file::read(&args.out)?;
+    let record = run_so_far(&args.out)?;
     let nodal_lines = nodal_polylines(&record).map(|[preferred_curvature, low, high]| picture::NodalLines {
         preferred_curvature,
         low,

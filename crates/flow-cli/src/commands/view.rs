@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use flow_core::output::atomic_file::check_writable;
-use flow_core::output::{hdf5_file, page};
+use flow_core::output::page;
 
+use super::so_far::run_so_far;
 use crate::error::CliError;
 use crate::print;
 
@@ -32,7 +33,7 @@ pub struct Args {
 pub fn execute(args: &Args) -> Result<(), CliError> {
     let path = args.output.clone().unwrap_or_else(|| args.out.with_extension("html"));
     check_writable(&path, args.replace)?;
-    let record = hdf5_file::read(&args.out)?;
+    let record = run_so_far(&args.out)?;
     page::view(&record, &path, args.replace)?;
     let bytes = std::fs::metadata(&path).map_or(0, |file| file.len());
     if let Some(warning) = too_large(bytes, record.frames.len()).filter(|_| !args.quiet) {

@@ -5,9 +5,11 @@ mod format;
 mod lock;
 mod pair;
 mod saving;
+mod so_far;
 
 pub use file::{read, write};
 pub use format::{Checkpoint, SceneTexts, decode, encode};
 pub use lock::Lock;
 pub use pair::{Found, Pair};
 pub use saving::{Ended, Saving, run_saving};
+pub use so_far::{SoFar, so_far};

@@ -202,7 +202,10 @@ fn easier_solves(record: &Record) -> &'static str {
         (MetricRole::Field, _) => {
             "a [[flow.switch]] to gauge = \"scaled-arc-length\" before the flow comes to rest"
         }
-        (MetricRole::Graded, _) => "a weaker flow.grading, or gauge = \"scaled-arc-length\"",
+        (MetricRole::Graded, _) if scene.flow.grading.is_some() => {
+            "a weaker flow.grading, or gauge = \"scaled-arc-length\""
+        }
+        (MetricRole::Graded, _) => "gauge = \"scaled-arc-length\", or a larger epsilon",
         (_, LinearSolver::Fourier) => "accuracy.linear_solver = \"auto\"",
         (_, LinearSolver::Auto | LinearSolver::Banded)
             if record.nodes() <= 128 && has_shape_energy(&scene) =>

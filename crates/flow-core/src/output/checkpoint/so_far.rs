@@ -1,0 +1,40 @@
+//! What there is of a run: its result, or until there is one what its newest checkpoint holds.
+
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use super::pair::Pair;
+use crate::output::{Operation, StorageError, hdf5_file};
+use crate::run::Record;
+
+/// A run, as far as it has come.
+#[derive(Debug)]
+pub struct SoFar {
+    /// The result, or what a run that goes on, or was stopped, had at its newest checkpoint.
+    pub record: Record,
+    /// That checkpoint, and its time; none if it is a result.
+    pub checkpoint: Option<(PathBuf, f64)>,
+}
+
+/// Reads the result file `path`; if there is none, the newest checkpoint beside it, whose run may go on meanwhile.
+///
+/// # Errors
+/// [`StorageError`], of the result file if there are no checkpoints either.
+pub fn so_far(path: &Path) -> Result<SoFar, StorageError> {
+    match hdf5_file::read(path) {
+        Ok(record) => Ok(SoFar { record, checkpoint: None }),
+        Err(error) if is_missing(&error) => match Pair::beside(path).newest()? {
+            None => Err(error),
+            Some(found) => {
+                let mut simulation = found.checkpoint.simulation(&found.path)?;
+                let time = simulation.time();
+                Ok(SoFar { record: simulation.record(), checkpoint: Some((found.path, time)) })
+            }
+        },
+        Err(error) => Err(error),
+    }
+}
+
+fn is_missing(error: &StorageError) -> bool {
+    matches!(error, StorageError::System { operation: Operation::Read, reason, .. } if reason.kind() == ErrorKind::NotFound)
+}
