@@ -58,7 +58,8 @@ from .provenance import Provenance
 from .result import Result, open
 from .running import Progress, run
 from .scene import Scene, scenes
-from .simulation import Simulation, State
+from .simulation import Simulation
+from .state import State
 from .system import System
 from .why_slow import WhySlow
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _curveflow
+from .read_only import ReadOnlyDict
 
 Array = NDArray[np.float64]
 
@@ -42,7 +42,7 @@ class Frames:
     def energy_terms(self) -> Mapping[str, Array]:
         """Energy of each term by its name in the scene, shape (frame,), in units of energy (E1)-(E9)."""
         names = self._record.energy_terms
-        return MappingProxyType({name: self._record.energy_term(i) for i, name in enumerate(names)})
+        return ReadOnlyDict({name: self._record.energy_term(i) for i, name in enumerate(names)})
 
     @cached_property
     def dissipation(self) -> Array:
@@ -79,7 +79,7 @@ class Frames:
     def mass(self) -> Mapping[str, Array]:
         """Mass of each density by name, its integral over arc length, shape (frame,), in density × length."""
         names = self._record.densities
-        return MappingProxyType({name: self._record.mass(i) for i, name in enumerate(names)})
+        return ReadOnlyDict({name: self._record.mass(i) for i, name in enumerate(names)})
 
     @cached_property
     def closure_defect(self) -> Array:
@@ -128,7 +128,7 @@ class Frames:
     def density(self) -> Mapping[str, Array]:
         """Each density by name, per unit of arc length, shape (frame, node), in units of density."""
         names = self._record.densities
-        return MappingProxyType({name: self._record.density(i) for i, name in enumerate(names)})
+        return ReadOnlyDict({name: self._record.density(i) for i, name in enumerate(names)})
 
     @cached_property
     def fields(self) -> Mapping[str, Array]:
@@ -144,7 +144,7 @@ class Frames:
         - ``normal_velocity_bending``, …: what each term adds to the normal velocity (``normal-velocities``).
         """
         names = self._record.fields
-        return MappingProxyType({name: self._record.requested_field(i) for i, name in enumerate(names)})
+        return ReadOnlyDict({name: self._record.requested_field(i) for i, name in enumerate(names)})
 
     @cached_property
     def diagnostics(self) -> Mapping[str, Array]:
@@ -158,7 +158,7 @@ class Frames:
           membrane term, in velocity × length^½.
         """
         names = self._record.diagnostics
-        return MappingProxyType({name: self._record.diagnostic(i) for i, name in enumerate(names)})
+        return ReadOnlyDict({name: self._record.diagnostic(i) for i, name in enumerate(names)})
 
     @cached_property
     def steps(self) -> Mapping[str, NDArray[Any]]:
@@ -168,4 +168,4 @@ class Frames:
         number of ``nodes``, and the attempts rejected before it by cause: ``rejections_error``, ``rejections_solver``,
         ``rejections_energy_rise`` and ``rejections_not_finite``.
         """
-        return MappingProxyType(self._record.steps())
+        return ReadOnlyDict(self._record.steps())

@@ -5,13 +5,13 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping
 from functools import cached_property
-from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _curveflow
+from .read_only import ReadOnlyDict
 from .result import Array
 from .running import Line, with_progress
 from .scene import Scene
@@ -116,7 +116,7 @@ class Tradeoff:
         square mean.
         """
         names = self._native.names
-        return MappingProxyType({name: self._native.errors(number) for number, name in enumerate(names)})
+        return ReadOnlyDict({name: self._native.errors(number) for number, name in enumerate(names)})
 
     @cached_property
     def nodes(self) -> NDArray[np.uint64]:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import Literal
 
 import numpy as np
@@ -18,11 +17,12 @@ from numpy.typing import ArrayLike
 from . import _curveflow
 from .errors import ArrayError
 from .frames import Array
+from .read_only import ReadOnlyArrays, ReadOnlyDict
 from .scene import Scene
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Geometry:
+class Geometry(ReadOnlyArrays):
     """Geometry of a closed curve at its nodes; arrays are read-only."""
 
     curvature: Array
@@ -49,7 +49,7 @@ class Geometry:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Rates:
+class Rates(ReadOnlyArrays):
     """Rates of change at fixed parameter; arrays of shape (node,), read-only."""
 
     curvature: Array
@@ -115,7 +115,7 @@ def flow_map(
     names, values = _densities(density)
     kappa, g, v = _nodal(curvature=curvature, metric=metric, normal_velocity=normal_velocity)
     kappa_t, g_t, density_t, w = _curveflow.flow_map(kappa, g, v, values, gauge, derivative)
-    return Rates(kappa_t, g_t, MappingProxyType(dict(zip(names, density_t, strict=True))), w)
+    return Rates(kappa_t, g_t, ReadOnlyDict(dict(zip(names, density_t, strict=True))), w)
 
 
 def helmholtz(

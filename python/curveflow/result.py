@@ -7,12 +7,12 @@ import tempfile
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
-from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from . import _curveflow
 from .frames import Array, Frames
 from .provenance import Provenance
+from .read_only import ReadOnlyDict
 from .scene import Scene
 from .why_slow import WhySlow
 
@@ -93,7 +93,7 @@ class Result(Frames):
         ``integration_seconds`` are those of all steps, also before a restart; ``seconds_start``, ``seconds_solves``, … are
         :attr:`WhySlow.seconds`, by what they were spent on.
         """
-        return MappingProxyType(self._record.counters())
+        return ReadOnlyDict(self._record.counters())
 
     def why_slow(self) -> WhySlow:
         """Where the time went, what limits the run, and one thing to try; print it to read it."""

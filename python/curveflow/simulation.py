@@ -4,57 +4,19 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from collections.abc import Callable
+from dataclasses import dataclass
 from operator import index
-from types import MappingProxyType
-from typing import Any, NoReturn, SupportsIndex
-
-import numpy as np
+from typing import NoReturn, SupportsIndex
 
 from . import _curveflow
-from .result import Array, Result
+from .read_only import ReadOnlyDict
+from .result import Result
 from .running import Progress, watching
 from .scene import Scene
+from .state import State
 
 _ALL_STEPS = 2**63
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class State:
-    """A curve with its densities at one time, in the units of the scene; arrays are read-only."""
-
-    time: float
-    """Simulated time."""
-    energy: float
-    """Energy."""
-    dissipation: float
-    """Dissipation, minus the rate of change of the energy."""
-    length: float
-    """Length of the curve."""
-    area: float
-    """Enclosed area, positive for a counter-clockwise curve."""
-    position: Array
-    """Position of the nodes, shape (node, 2)."""
-    curvature: Array
-    """Curvature, positive on a circle, shape (node,)."""
-    metric: Array
-    """Arc length per unit parameter, shape (node,)."""
-    normal_velocity: Array
-    """Velocity along the outward normal, shape (node,)."""
-    density: Mapping[str, Array]
-    """Each density by name, shape (node,)."""
-
-    def __reduce__(self) -> tuple[object, ...]:
-        values = {field.name: getattr(self, field.name) for field in fields(self)}
-        return _state, (values | {"density": dict(self.density)},)
-
-
-def _state(values: dict[str, Any]) -> State:
-    for array in [*values.values(), *values["density"].values()]:
-        if isinstance(array, np.ndarray):
-            array.flags.writeable = False
-    return State(**(values | {"density": MappingProxyType(values["density"])}))
 
 
 @dataclass(slots=True)
@@ -177,7 +139,7 @@ class Simulation:
             curvature=curvature,
             metric=metric,
             normal_velocity=normal_velocity,
-            density=MappingProxyType(dict(density)),
+            density=ReadOnlyDict(density),
         )
 
     def add_callback(

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
-from types import MappingProxyType
-from typing import Any
+from dataclasses import dataclass, field
 
 from . import _curveflow
+from .read_only import ReadOnlyArrays, ReadOnlyDict
 
 
 @dataclass(frozen=True, repr=False)
-class WhySlow:
+class WhySlow(ReadOnlyArrays):
     """Why a run takes the time that it takes; prints as a sentence, one thing to try, and tables.
 
     Times are wall time since the run was started or, if it was resumed, since then. Steps are clocked now and then and stand
@@ -56,23 +55,12 @@ class WhySlow:
     @classmethod
     def _of(cls, record: _curveflow.Record) -> WhySlow:
         limit, sentence, advice, text, krylov, seconds, parts = record.why_slow()
-        return cls(limit, sentence, advice, krylov, MappingProxyType(dict(seconds)), MappingProxyType(dict(parts)), text)
+        return cls(limit, sentence, advice, krylov, ReadOnlyDict(seconds), ReadOnlyDict(parts), text)
 
     @property
     def total(self) -> float:
         """Seconds of the run."""
         return sum(self.seconds.values())
 
-    def __reduce__(self) -> tuple[object, ...]:
-        values = {field.name: getattr(self, field.name) for field in fields(self)}
-        return _why_slow, (values | {name: dict(values[name]) for name in _MAPPINGS},)
-
     def __repr__(self) -> str:
         return self._text
-
-
-_MAPPINGS = ("seconds", "evaluation_seconds")
-
-
-def _why_slow(values: dict[str, Any]) -> WhySlow:
-    return WhySlow(**(values | {name: MappingProxyType(values[name]) for name in _MAPPINGS}))
