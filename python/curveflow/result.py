@@ -198,7 +198,13 @@ class Result(Frames):
 
     def __repr__(self) -> str:
         frames, nodes = self._record.shape
-        return f"<Result {self.title!r}: {self.status} at t = {self.time[-1]:.6g}, {frames} frames, {nodes} nodes>"
+        size = f"{frames} frames, {nodes} nodes"
+        return f"<Result {self.title!r}: {self.status} at t = {self.time[-1]:.6g}, {size}{self._doubtful()}>"
+
+    def _doubtful(self) -> str:
+        """How many warnings there are and where; nothing if there are none."""
+        count = len(self.warnings)
+        return f"; {count} warning{'s' if count > 1 else ''}, see result.warnings" if count else ""
 
     def _repr_html_(self) -> str:
         """The run at a glance, for notebooks: final curve, how it ended, the laws kept, its cost."""

@@ -6,7 +6,7 @@ import io
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from typing import Any, NamedTuple
 
 from . import _curveflow
@@ -48,7 +48,8 @@ def run(
     Args:
         scene: what to run.
         progress: show on standard error how far the run has come: a line that is kept up to date on a terminal, a line
-            every 30 s elsewhere.
+            every 30 s elsewhere; in the end how it ended, and its ``result.warnings``. Where standard error cannot be
+            written to, nothing is shown.
         callback: called with a :class:`Progress` after every accepted step. By raising ``StopIteration`` it stops the run
             as Ctrl-C does; any other exception is passed on, and the run is lost.
 
@@ -62,7 +63,10 @@ def run(
     with watching(progress, callback) as (watch, interval):
         result = Result(_curveflow.run(Scene._core(scene), watch, interval), scene)
     if progress:
-        Line().end(f"{result.message} (t = {result.time[-1]:.6g}, {result.stats['steps']} steps)")
+        line = Line()
+        line.end(f"{result.message} (t = {result.time[-1]:.6g}, {result.stats['steps']} steps)")
+        for warning in result.warnings:
+            line.end(f"warning: {warning}")
     return result
 
 
@@ -108,12 +112,18 @@ def _both(callback: Callable[[Progress], object], line: Line) -> Callable[[Progr
     return watch
 
 
+# The reader of the stream has gone, or it is closed.
+_NOT_SHOWN = (OSError, ValueError)
+
+
 class Line:
-    """The line that shows the progress."""
+    """The line that shows the progress; a run does not end because it cannot be shown."""
 
     def __init__(self) -> None:
         self.stream = sys.stderr or io.StringIO()  # there is none without a console
-        self.rewrites = self.stream.isatty()
+        self.rewrites = False
+        with suppress(*_NOT_SHOWN):
+            self.rewrites = self.stream.isatty()
         self.interval = 0.1 if self.rewrites else 30.0
         self.shown = time.monotonic()
         self.head = ""
@@ -128,12 +138,11 @@ class Line:
             )
 
     def write(self, text: str) -> None:
-        self.stream.write(f"\r\x1b[K{text}" if self.rewrites else f"{text}\n")
-        self.stream.flush()
+        with suppress(*_NOT_SHOWN):
+            self.stream.write(f"\r\x1b[K{text}" if self.rewrites else f"{text}\n")
+            self.stream.flush()
 
     def end(self, text: str) -> None:
         """Replace the line by ``text``, if there is one."""
         if text or self.rewrites:
-            self.write(text)
-        if text and self.rewrites:
-            self.stream.write("\n")
+            self.write(f"{text}\n" if text and self.rewrites else text)

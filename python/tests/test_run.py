@@ -1,3 +1,4 @@
+import io
 import os
 import signal
 import subprocess
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 
 import curveflow as cf
+from curveflow.running import Line
 
 INTERRUPTED = """
 import sys
@@ -134,3 +136,51 @@ def test_progress_ends_with_the_outcome(circle: cf.Scene, capsys: pytest.Capture
     captured = capsys.readouterr()
     assert captured.out == ""
     assert captured.err == f"{result.message} (t = 1, {result.stats['steps']} steps)\n"
+
+
+@pytest.fixture(scope="module")
+def coarse() -> cf.Scene:
+    """A scene whose nodes are too few for its fronts: it comes to its end, and means little."""
+    return cf.Scene.shipped("three_fold_sharp").with_values({"accuracy.nodes": 64, "accuracy.tolerance": 1e-3})
+
+
+def test_a_doubtful_result_looks_doubtful(coarse: cf.Scene, circle: cf.Scene, capsys: pytest.CaptureFixture[str]):
+    result = cf.run(coarse, progress=True)
+    (warning,) = result.warnings
+    assert result.success and "were not resolved by their nodes" in warning
+    assert capsys.readouterr().err.splitlines()[1:] == [f"warning: {warning}"]
+    assert repr(result).endswith("64 nodes; 1 warning, see result.warnings>")
+    assert f"warning: {warning.split(',')[0]}" in result._repr_html_()
+    why = result.why_slow()
+    assert "a larger accuracy.tolerance" not in why.advice
+    good = cf.run(circle)
+    assert "warning" not in repr(good) + good._repr_html_()
+
+
+class Broken(io.StringIO):
+    """A terminal whose reader has gone."""
+
+    def isatty(self) -> bool:
+        return True
+
+    def write(self, _: str) -> int:
+        raise BrokenPipeError(32, "Broken pipe")
+
+
+def closed() -> io.StringIO:
+    stream = io.StringIO()
+    stream.close()
+    return stream
+
+
+@pytest.mark.parametrize("stream", [Broken(), closed(), None], ids=["broken", "closed", "none"])
+def test_progress_that_cannot_be_shown_is_dropped(
+    circle: cf.Scene, stream: io.StringIO | None, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(sys, "stderr", stream)
+    monkeypatch.setattr(Line, "show", lambda line, progress: line.write(str(progress)))
+    assert cf.run(circle, progress=True).success
+    assert cf.run(circle, progress=True, callback=lambda _: None).success
+    simulation = cf.Simulation(circle)
+    assert not simulation.run(progress=True) and simulation.status == "end-time"
+    assert cf.tradeoff(circle, [1e-2], progress=True).failures == [None]

@@ -1,6 +1,8 @@
 //! What is said of runs that came to their end and are doubtful all the same.
 
-use flow_core::run::{Quiet, Scene, run, warnings};
+use flow_core::integrator::Activity;
+use flow_core::output::page::card;
+use flow_core::run::{Limit, Quiet, Scene, Seconds, Spending, WhySlow, run, warnings};
 
 fn shipped(name: &str, changes: &[(&str, &str)]) -> Scene {
     let (_, text) = Scene::shipped().iter().find(|(shipped, _)| *shipped == name).expect("shipped");
@@ -42,7 +44,7 @@ fn a_run_that_loses_its_balance_bit_by_bit_is_told() {
         accuracy.tolerance = 3e-4
         ";
     let record = run(&Scene::parse(text, "eight").expect("valid"), &mut Quiet).expect("a state");
-    assert!(warnings(&record).iter().any(|told| told.contains("take a smaller tolerance")));
+    assert!(warnings(&record).iter().any(|told| told.contains("take a smaller accuracy.tolerance")));
     let tighter = run(&Scene::parse(&text.replace("3e-4", "1e-5"), "eight").expect("valid"), &mut Quiet)
         .expect("a state");
     assert!(warnings(&tighter).is_empty());
@@ -59,4 +61,30 @@ fn fixed_nodes_that_are_too_few_all_along_are_told() {
         "{:?}",
         record.counters
     );
+}
+
+/// Fewer steps, or cheaper ones, would make it worse.
+#[test]
+fn a_doubtful_run_is_to_be_mended_before_it_is_made_quicker() {
+    let coarse = run(
+        &shipped("three_fold_sharp", &[("accuracy.nodes", "64"), ("accuracy.tolerance", "1e-3")]),
+        &mut Quiet,
+    )
+    .expect("a state");
+    let told = warnings(&coarse);
+    assert_eq!(told.len(), 1, "{told:?}");
+    let mut timed = coarse.clone();
+    // What the clocks say is another matter.
+    timed.seconds = Seconds::default();
+    timed.seconds[Spending::Step(Activity::Solve)] = 1.0;
+    for (terms, limit) in [(vec![0.1, 0.1], Limit::Accuracy), (vec![0.9, 0.1], Limit::Term)] {
+        timed.seconds.evaluations.terms = terms;
+        let why = WhySlow::of(&timed);
+        assert_eq!(why.limit, limit, "{why}");
+        assert!(why.advice.starts_with("first more accuracy.nodes"), "{}", why.advice);
+        assert!(told[0].contains("take more accuracy.nodes"), "{}", told[0]);
+    }
+    let good = run(&shipped("circle", &[]), &mut Quiet).expect("a state");
+    assert!(!WhySlow::of(&good).advice.contains("doubtful"));
+    assert!(card(&coarse).contains("warning: 195 of the 195 steps") && !card(&good).contains("warning"));
 }

@@ -1,5 +1,7 @@
 //! What makes the result of a run doubtful although it came to its end.
 
+use std::fmt::{self, Display, Formatter};
+
 use super::record::Record;
 use super::scene::Scene;
 
@@ -7,35 +9,66 @@ use super::scene::Scene;
 /// within their bounds have lost it together. On the shipped scenes it is below two.
 const OUT_OF_BALANCE: f64 = 3.0;
 
+/// A reason to doubt a result, with its numbers.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Doubt {
+    /// The nodes did not resolve most of the steps.
+    Unresolved { unresolved: u64, steps: u64 },
+    /// The energy lost and the dissipation are apart by this part of the energy.
+    OutOfBalance { part: f64, tolerance: f64 },
+}
+
+impl Doubt {
+    /// What helps.
+    pub(super) fn remedy(self) -> &'static str {
+        match self {
+            Self::Unresolved { .. } => "more accuracy.nodes, or accuracy.nodes = \"auto\"",
+            Self::OutOfBalance { .. } => "a smaller accuracy.tolerance",
+        }
+    }
+}
+
+impl Display for Doubt {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unresolved { unresolved, steps } => write!(
+                f,
+                "{unresolved} of the {steps} steps were not resolved by their nodes, and the result depends on these"
+            )?,
+            Self::OutOfBalance { part, tolerance } => write!(
+                f,
+                "the energy lost and the dissipation are apart by {part:.1e} of the energy, more than accuracy.tolerance = \
+                 {tolerance:e} promises"
+            )?,
+        }
+        write!(f, ": take {}", self.remedy())
+    }
+}
+
 /// One sentence on each thing that makes the result of `record` doubtful, with what helps; none if there is nothing.
 #[must_use]
 pub fn warnings(record: &Record) -> Vec<String> {
-    [unresolved(record), out_of_balance(record)].into_iter().flatten().collect()
+    doubts(record).map(|doubt| doubt.to_string()).collect()
+}
+
+/// What makes the result of `record` doubtful.
+pub(super) fn doubts(record: &Record) -> impl Iterator<Item = Doubt> {
+    [unresolved(record), out_of_balance(record)].into_iter().flatten()
 }
 
 /// Of a run most of which its nodes did not resolve.
-fn unresolved(record: &Record) -> Option<String> {
+fn unresolved(record: &Record) -> Option<Doubt> {
     let (unresolved, steps) = (record.counters.unresolved_steps, record.counters.steps);
-    (2 * unresolved > steps).then(|| {
-        format!(
-            "{unresolved} of the {steps} steps were not resolved by their nodes, and the result depends on these: take more of them, \
-             or accuracy.nodes = \"auto\""
-        )
-    })
+    (2 * unresolved > steps).then_some(Doubt::Unresolved { unresolved, steps })
 }
 
 /// Of a run that has not lost the energy that it dissipated.
-fn out_of_balance(record: &Record) -> Option<String> {
+fn out_of_balance(record: &Record) -> Option<Doubt> {
     let (first, last) = (record.frames.first()?, record.frames.last()?);
     // The scene of a file of another version may not be readable here.
     let scene = Scene::parse(&record.resolved_scene, "the scene of the result").ok()?;
     let tolerance = scene.accuracy.tolerance;
     let scale = first.energy.abs().max(last.energy.abs());
     let part = (last.energy_balance - last.remap_error).abs() / scale;
-    (part > OUT_OF_BALANCE * tolerance).then(|| {
-        format!(
-            "the energy lost and the dissipation are apart by {part:.1e} of the energy, more than accuracy.tolerance = {tolerance:e} \
-             promises: take a smaller tolerance"
-        )
-    })
+    (part > OUT_OF_BALANCE * tolerance).then_some(Doubt::OutOfBalance { part, tolerance })
 }

@@ -5,6 +5,7 @@ use super::super::own_terms::OwnTerms;
 use super::super::record::Record;
 use super::super::resolution::LEAST_NODES;
 use super::super::scene::{LinearSolver, Scene};
+use super::super::warnings::doubts;
 use super::{Spending, WhySlow};
 use crate::flow::MetricRole;
 
@@ -148,7 +149,13 @@ impl Limit {
                 "a larger accuracy.tolerance: `curveflow tradeoff` measures what that costs in accuracy",
             ),
         };
-        (sentence, advice.to_owned())
+        (sentence, self.before_it_is_quicker(record).unwrap_or_else(|| advice.to_owned()))
+    }
+
+    /// What a doubtful result needs before its steps may be made fewer or cheaper, which would make it worse.
+    fn before_it_is_quicker(self, record: &Record) -> Option<String> {
+        let doubt = matches!(self, Self::Term | Self::Accuracy).then(|| doubts(record).next())??;
+        Some(format!("first {}: the result is doubtful as it is", doubt.remedy()))
     }
 }
 

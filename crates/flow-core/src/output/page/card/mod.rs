@@ -9,7 +9,7 @@ use std::fmt::Write;
 
 use super::facts::{change, largest, largest_rise};
 use super::text::escaped;
-use crate::run::{Frame, Record, StopReason, WhySlow};
+use crate::run::{Frame, Record, StopReason, WhySlow, warnings};
 use number::short;
 
 const BOX: &str = "display:flex;flex-wrap:wrap;gap:1.2em;align-items:flex-start;max-width:60em;padding:0.8em 1em;\
@@ -17,6 +17,8 @@ const BOX: &str = "display:flex;flex-wrap:wrap;gap:1.2em;align-items:flex-start;
                    color:inherit";
 const CELL: &str = "padding:0.1em 0.8em 0.1em 0;text-align:left;vertical-align:top;border:none";
 const NAME: &str = "opacity:0.7";
+/// What looks well and may not be.
+const DOUBTFUL: &str = "#8a6100";
 /// Significant digits of values, and of errors and times.
 const DIGITS: i32 = 5;
 const FEW_DIGITS: i32 = 3;
@@ -37,11 +39,13 @@ pub fn card(record: &Record) -> String {
     html
 }
 
-/// Title, how it ended, how large it is.
+/// Title, how it ended, what makes it doubtful, how large it is.
 fn head(html: &mut String, record: &Record) {
+    let doubts = warnings(record);
     let colour = match record.stop_reason {
+        StopReason::EndTime | StopReason::Equilibrium | StopReason::Contact if !doubts.is_empty() => DOUBTFUL,
         StopReason::EndTime | StopReason::Equilibrium | StopReason::Contact => "#1a7f4b",
-        StopReason::Interrupted => "#8a6100",
+        StopReason::Interrupted => DOUBTFUL,
         StopReason::Failed(_) => "#b3261e",
     };
     let badge =
@@ -51,15 +55,21 @@ fn head(html: &mut String, record: &Record) {
     let _ = write!(
         html,
         "<div style=\"font-size:1.15em;font-weight:600\">{}</div>\
-         <div style=\"margin:0.3em 0\"><span style=\"{badge}\">{}</span>{}</div>\
+         <div style=\"margin:0.3em 0\"><span style=\"{badge}\">{}</span>{}</div>{}\
          <div style=\"{NAME}\">t = {}, {} frames, {} nodes</div>",
         escaped(title),
         record.stop_reason.name(),
         escaped(record.stop_reason.message()),
+        doubts.iter().map(|doubt| warning(doubt)).collect::<String>(),
         short(record.frames.last().map_or(f64::NAN, |frame| frame.time), DIGITS),
         record.frames.len(),
         record.nodes()
     );
+}
+
+/// The line of a warning.
+fn warning(text: &str) -> String {
+    format!("<div style=\"margin:0.3em 0;font-weight:600\">warning: {}</div>", escaped(text))
 }
 
 /// A table of names and values, which are safe already.
