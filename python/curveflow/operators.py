@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import _curveflow
 from .errors import ArrayError
@@ -111,6 +111,7 @@ def flow_map(
 
     Raises:
         ArrayError: arrays differ in length, are not finite, or the metric does not fit the gauge.
+        ValueError: there is no such gauge or derivative.
     """
     names, values = _densities(density)
     kappa, g, v = _nodal(curvature=curvature, metric=metric, normal_velocity=normal_velocity)
@@ -141,6 +142,7 @@ def helmholtz(
 
     Raises:
         ArrayError: arrays differ in length, are not finite, or H is singular.
+        ValueError: there is no such derivative.
     """
     kappa, g, f = _nodal(curvature=curvature, metric=metric, right_hand_side=right_hand_side)
     return _curveflow.helmholtz(kappa, g, f, derivative)
@@ -168,6 +170,7 @@ def incompressibility(
 
     Raises:
         ArrayError: arrays differ in length, are not finite, or H of :func:`helmholtz` is singular.
+        ValueError: there is no such derivative.
     """
     kappa, g, f = _nodal(curvature=curvature, metric=metric, force=force)
     return _curveflow.incompressibility(kappa, g, f, derivative)
@@ -230,11 +233,27 @@ def normal_force(
     return _curveflow.normal_force(Scene._core(scene), kappa, g, _of_scene(scene, density))
 
 
+# What arrays of objects may hold and NumPy would convert.
+_NOT_REAL = (str, bytes, complex, np.complexfloating, np.datetime64, np.timedelta64)
+
+
 def _contiguous(name: str, given: ArrayLike) -> Array:
+    if isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given):
+        raise ArrayError(f"`{name}` has masked values; give it without them, or filled")
     try:
-        return np.ascontiguousarray(given, dtype=np.float64)
+        array = np.asarray(given)
+        if _is_real(array):
+            return np.ascontiguousarray(array, dtype=np.float64)
     except (TypeError, ValueError) as error:
         raise ArrayError(f"`{name}` is no array of numbers: {error}") from error
+    raise ArrayError(f"`{name}` is no array of numbers: it holds {array.dtype.name}, but it must hold real numbers")
+
+
+def _is_real(array: NDArray[Any]) -> bool:
+    """Whether NumPy takes all of it over: of imaginary parts, dates and texts it would make other numbers."""
+    if array.dtype.kind == "O":
+        return not any(isinstance(value, _NOT_REAL) for value in array.flat)
+    return array.dtype.kind in "biuf"
 
 
 def _one_frame(array: Array, dimensions: int) -> str:

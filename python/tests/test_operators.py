@@ -1,4 +1,5 @@
 from dataclasses import FrozenInstanceError, fields
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -263,3 +264,32 @@ def test_a_first_point_that_is_repeated_is_no_curve():
     phi = np.linspace(0, 2 * np.pi, 257)
     with pytest.raises(cf.ArrayError, match="nodes 256 and 0 .*not repeated"):
         cf.geometry(np.stack([np.cos(phi), np.sin(phi)], axis=1))
+
+
+@pytest.mark.parametrize(
+    "given, match",
+    [
+        (KAPPA + 1j, "it holds complex128, but it must hold real numbers"),
+        (np.array([*KAPPA[1:], 1j], dtype=object), "it holds object"),
+        (np.arange(NODES).astype("datetime64[s]"), r"it holds datetime64\[s\]"),
+        (np.arange(NODES).astype("timedelta64[s]"), r"it holds timedelta64\[s\]"),
+        (KAPPA.astype(str), "it holds str"),
+        (np.array(["0.5"] * NODES, dtype=object), "it holds object"),
+        (np.ma.masked_less(KAPPA * (S > 0.1), 0.1), "has masked values"),
+    ],
+    ids=["complex", "complex object", "date", "span of time", "text", "text object", "masked"],
+)
+def test_what_would_change_when_it_is_made_real_is_refused(given: Any, match: str):
+    for call in (
+        lambda: cf.helmholtz(given, METRIC, S),
+        lambda: cf.flow_map(KAPPA, METRIC, S, {"protein": given}),
+        lambda: cf.geometry(np.stack([given, given], axis=1) if "mask" not in match else np.ma.stack([given, given], axis=1)),
+    ):
+        with pytest.raises(cf.ArrayError, match=match):
+            call()
+
+
+def test_other_real_numbers_are_taken():
+    expected = cf.helmholtz(np.full(NODES, 0.5), METRIC, np.ones(NODES))
+    for given in (np.full(NODES, 0.5, np.float32), [Fraction(1, 2)] * NODES, np.ma.array(np.full(NODES, 0.5))):
+        np.testing.assert_array_equal(cf.helmholtz(given, METRIC, np.full(NODES, True)), expected)
