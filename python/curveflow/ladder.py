@@ -5,12 +5,14 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from operator import index
+from typing import TYPE_CHECKING, NamedTuple, SupportsFloat, SupportsIndex
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _curveflow
+from .errors import LadderError
 from .read_only import ReadOnlyDict
 from .result import Array
 from .running import Line, with_progress
@@ -133,7 +135,7 @@ class Tradeoff:
         """Seconds of integration, the median of several runs if they are short, shape (run,)."""
         return self._native.values("seconds")
 
-    def cheapest(self, error: float) -> Setting | None:
+    def cheapest(self, error: SupportsFloat) -> Setting | None:
         """Return the quickest run whose errors are all at most ``error``; none if there is none."""
         run = self._native.cheapest(error)
         if run is None:
@@ -177,9 +179,9 @@ class Tradeoff:
 
 def tradeoff(
     scene: Scene,
-    tolerances: Iterable[float] | None = None,
+    tolerances: Iterable[SupportsFloat] | None = None,
     *,
-    reference_nodes: int | None = None,
+    reference_nodes: SupportsIndex | None = None,
     progress: bool = False,
 ) -> Tradeoff:
     """Run a scene at a ladder of tolerances and measure each run against a tighter one.
@@ -201,11 +203,13 @@ def tradeoff(
         progress: show where the runs stand on standard error, as :func:`run` does.
 
     Raises:
-        LadderError: a tolerance or the number of nodes is out of range, or a tolerance is given twice.
+        LadderError: a tolerance is no number, it or the number of nodes is out of range, or a tolerance is given twice.
         SetupError: the scene makes no initial state.
         TradeoffError: the scene itself or the reference failed.
+        TypeError: ``scene`` is no :class:`Scene`, ``tolerances`` no list, or ``reference_nodes`` no integer.
     """
-    ladder = None if tolerances is None else [float(tolerance) for tolerance in tolerances]
+    ladder = None if tolerances is None else [_number(tolerance) for tolerance in tolerances]
+    nodes = None if reference_nodes is None else _count(reference_nodes)
     line = Line() if progress else None
 
     def begin(name: str, tolerance: float, number: int, count: int) -> None:
@@ -215,8 +219,23 @@ def tradeoff(
 
     callback = with_progress(line.show) if line else None
     try:
-        native = _curveflow.tradeoff(Scene._core(scene), ladder, reference_nodes, begin, callback, 0.1)
+        native = _curveflow.tradeoff(Scene._core(scene), ladder, nodes, begin, callback, 0.1)
     finally:
         if line:
             line.end("")
     return Tradeoff(native)
+
+
+def _number(tolerance: SupportsFloat) -> float:
+    try:
+        return float(tolerance)
+    except (TypeError, ValueError):
+        raise LadderError(f"tolerance {tolerance!r:.60} is no number; try 1e-5") from None
+
+
+def _count(nodes: SupportsIndex) -> int:
+    """Refuse the integers that the extension has no type for; of the others it says what is allowed."""
+    count = index(nodes)
+    if not 0 <= count < 2**32:
+        raise LadderError(f"the reference cannot have {count} nodes; try twice those of the scene")
+    return count

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from . import _curveflow
@@ -17,13 +17,21 @@ if TYPE_CHECKING:
     from .result import Result
 
 
+class _Checked:
+    """What the core has of a scene: no value of it, so no field of the dataclass."""
+
+    __slots__ = ("_native",)
+    _native: _curveflow.Scene
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Scene:
+class Scene(_Checked):
     """A scene that has been checked: a curve, its densities and energy, how it flows and how accurately.
 
     A scene is made of objects, as below, or by :meth:`load`, :meth:`parse` or :meth:`shipped`. It cannot be changed;
     ``dataclasses.replace`` and :meth:`with_values` make new scenes from it. Scenes are equal if they mean the same, and
-    can be pickled. All defaults are filled in:
+    can be pickled. ``dataclasses.asdict`` gives the values, without which shape and which terms have them; all is in
+    :meth:`to_toml`. All defaults are filled in:
 
     >>> import curveflow as cf
     >>> scene = cf.Scene(curve=cf.Circle(1), energy=[cf.Bending(1)], time=cf.Time(2.5))
@@ -68,7 +76,6 @@ class Scene:
     """How exact the answer is to be."""
     output: Output = Output()
     """Which states to save."""
-    _native: _curveflow.Scene = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         text = "".join(
@@ -105,7 +112,10 @@ class Scene:
         Raises:
             SceneError: the text is not a scene; the message names keys and lines.
         """
-        return cls._of(_curveflow.Scene.parse(text, name, []))
+        try:
+            return cls._of(_curveflow.Scene.parse(text, name, []))
+        except UnicodeEncodeError as error:
+            raise writing.half_character("the text or its name", error) from None
 
     @classmethod
     def shipped(cls, name: str) -> Scene:
@@ -126,25 +136,32 @@ class Scene:
 
         Raises:
             SceneError: this version cannot read the scene stored in the result file.
+            TypeError: ``result`` is no :class:`Result`.
         """
+        from .result import Result
+
+        if not isinstance(result, Result):
+            raise TypeError(f"result is {result!r:.60}, but it must be a curveflow.Result: curveflow.open(path)")
         return result.scene
 
     def with_values(self, values: Mapping[str, object]) -> Scene:
         """Return a copy of this scene with other values, like ``--set`` on the command line.
 
         Args:
-            values: dotted keys and their values: ``{"accuracy.tolerance": 1e-4, "density.protein.initial": "0.5"}``.
+            values: dotted keys and their values: ``{"accuracy.tolerance": 1e-4, "density.protein.initial": "0.5"}``,
+                or nested, ``{"accuracy": {"tolerance": 1e-4}}``, which means the same: other keys of the table stay.
                 Numbers, texts (formulas too), truth values, lists, arrays and the objects of whole tables are allowed;
                 missing keys are added, and ``None`` removes a key.
 
         Raises:
             SceneError: the changed scene is not valid.
-            TypeError: a value is of another type than those above.
+            TypeError: ``values`` is no mapping, or a key or value is of another type than those above.
         """
-        changes = [(key, "" if value is None else writing.value(key, value)) for key, value in values.items()]
+        changes = list(writing.changes(values))
+        keys = [key for key, _ in changes]
         # The points of this scene, not what their file holds by now, unless another file is named.
-        native = self._native if "curve.file" in values else self._native.self_contained()
-        if "curve.file" in values and native.holds_points and "curve.points" not in values:
+        native = self._native if "curve.file" in keys else self._native.self_contained()
+        if "curve.file" in keys and native.holds_points and "curve.points" not in keys:
             changes.insert(0, ("curve.points", ""))
         return self._of(_curveflow.Scene.parse(native.text, native.source_name, changes))
 

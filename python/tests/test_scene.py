@@ -1,6 +1,9 @@
 import copy
 import pickle
+from collections.abc import Callable
+from dataclasses import asdict, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -113,3 +116,89 @@ def test_what_is_no_scene_is_refused():
     for call in (cf.run, cf.Simulation, cf.System, cf.tradeoff):
         with pytest.raises(TypeError, match=r"'three_fold'.*Scene\.load.*Scene\.shipped"):
             call("three_fold")  # type: ignore[arg-type,operator]
+
+
+def test_values_can_be_nested(circle: cf.Scene):
+    nested = circle.with_values({"accuracy": {"tolerance": 1e-3}, "output": {"frames": None, "times": [0.5]}})
+    flat = {"accuracy.tolerance": 1e-3, "output.frames": None, "output.times": [0.5]}
+    assert nested == circle.with_values(flat)
+    assert nested.accuracy.nodes == circle.accuracy.nodes == 32
+    protein = cf.Scene.shipped("three_fold").with_values({"density": {"protein": {"initial": 0.5}}})
+    assert protein.density[0].initial == 0.5
+    with pytest.raises(TypeError, match=r"accuracy\.tolerance: complex"):
+        circle.with_values({"accuracy": {"tolerance": 1j}})
+
+
+def test_nested_points_are_those_of_another_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.chdir(tmp_path)
+    phi = np.linspace(0, 2 * np.pi, 64, endpoint=False)
+    np.savetxt(tmp_path / "ring.txt", np.stack([2 * np.cos(phi), np.sin(phi)], axis=1))
+    points = cf.Points(np.stack([np.cos(phi), np.sin(phi)], axis=1))
+    scene = cf.Scene(curve=points, energy=[cf.Bending(1.0)], time=cf.Time(0.01))
+    assert scene.with_values({"curve": {"file": "ring.txt"}}) == scene.with_values({"curve.file": "ring.txt"}) != scene
+
+
+@pytest.mark.parametrize("values", [None, 3, "accuracy", [("accuracy.tolerance", 1e-3)]])
+def test_values_that_are_no_mapping_are_refused(circle: cf.Scene, values: Any):
+    with pytest.raises(TypeError, match=r'must map keys to values: {"accuracy\.tolerance"'):
+        circle.with_values(values)
+
+
+def test_keys_are_refused_as_they_are(circle: cf.Scene):
+    with pytest.raises(TypeError, match="the key 3 is no text"):
+        circle.with_values({3: 3})  # type: ignore[dict-item]
+    for key in ("accuracy.tolerance ", " accuracy.tolerance", "accuracy .tolerance"):
+        with pytest.raises(cf.SceneError, match=f"`{key}` cannot be set: the key has a blank in it"):
+            circle.with_values({key: 1e-3})
+
+
+def test_what_is_no_result_has_no_scene():
+    with pytest.raises(TypeError, match=r"result is None, but it must be a curveflow\.Result"):
+        cf.Scene.of(None)  # type: ignore[arg-type]
+
+
+def test_a_scene_can_be_taken_apart(circle: cf.Scene):
+    parts = asdict(circle)
+    assert parts["accuracy"] == asdict(circle.accuracy)
+    assert (parts["title"], parts["curve"]["radius"], parts["energy"][0]["rigidity"]) == ("Circle", 1.0, 1.0)
+    assert list(parts) == ["title", "curve", "density", "energy", "flow", "time", "accuracy", "output"]
+    assert replace(circle, title="Other").title == "Other"
+
+
+HALF = "a\ud800"
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda scene: replace(scene, title=HALF),
+        lambda scene: replace(scene, curve=cf.Points(file=HALF)),
+        lambda scene: scene.with_values({"title": HALF}),
+        lambda scene: scene.with_values({HALF: 1}),
+        lambda scene: scene.with_values({"flow": {HALF: 1}}),
+        lambda _: cf.Scene.parse(HALF),
+        lambda scene: cf.Scene.parse(scene.text, HALF),
+        lambda _: cf.Scene.load(HALF),
+    ],
+)
+def test_half_a_character_is_refused(circle: cf.Scene, call: Callable[[cf.Scene], object]):
+    with pytest.raises(cf.SceneError, match=r"\\ud800'(: no file can have this name| is half a character)"):
+        call(circle)
+
+
+def test_half_a_character_is_no_name_of_a_file(circle: cf.Scene, tmp_path: Path):
+    result, simulation = cf.run(circle), cf.Simulation(circle)
+    name = str(tmp_path / HALF)
+    for call in (
+        lambda: cf.open(name),
+        lambda: cf.Simulation.resume(name),
+        lambda: simulation.checkpoint(name),
+        lambda: result.save(name),
+        lambda: result.picture(f"{name}.png"),
+        lambda: result.view(name),
+        lambda: result.animate(f"{name}.gif"),
+        lambda: cf.tradeoff(circle, [1e-2]).picture(f"{name}.png"),
+    ):
+        with pytest.raises(cf.StorageError, match="no file can have this name"):
+            call()
+    assert not list(tmp_path.iterdir())

@@ -79,6 +79,12 @@ def test_a_bad_ladder_says_why(circle: cf.Scene):
     assert isinstance(raised.value, ValueError)
     with pytest.raises(cf.LadderError, match="the reference has 16 nodes, but a run that it measures 32"):
         cf.tradeoff(circle, [1e-3], reference_nodes=16)
+    for nodes in (-1, 7, 2**70):
+        with pytest.raises(cf.LadderError, match=f"the reference cannot have {nodes} nodes"):
+            cf.tradeoff(circle, [1e-3], reference_nodes=nodes)
+    for wrong in ("x", None):
+        with pytest.raises(cf.LadderError, match=f"tolerance {wrong!r} is no number"):
+            cf.tradeoff(circle, [1e-2, wrong])  # type: ignore[list-item]
     with pytest.raises(cf.TradeoffError, match=r"(?s)its own tolerance 1e-4.*time\.max_steps"):
         cf.tradeoff(circle.with_values({"time.max_steps": 3}))
     with pytest.raises(cf.SetupError, match="initial"):

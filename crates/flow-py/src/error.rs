@@ -116,8 +116,9 @@ pub fn raised(py: Python<'_>, error: &impl PythonError) -> PyErr {
     exception(py, error.class(), &with_causes(error))
 }
 
+/// An exception of a class of `curveflow.errors`.
 #[cold]
-fn exception(py: Python<'_>, class: &str, message: &str) -> PyErr {
+pub fn exception(py: Python<'_>, class: &str, message: &str) -> PyErr {
     let raised = py.import("curveflow.errors").and_then(|errors| errors.getattr(class)?.call1((message,)));
     raised.map_or_else(|error| error, PyErr::from_value)
 }

@@ -9,6 +9,7 @@ mod arrays;
 mod command;
 mod error;
 mod exports;
+mod file_path;
 mod operators;
 mod record;
 mod scene;

@@ -1,6 +1,5 @@
 //! Runs and result files: records in, arrays out.
 
-use std::path::PathBuf;
 use std::time::Duration;
 
 use flow_core::output::page::{self, PageError};
@@ -13,6 +12,7 @@ use pyo3::types::PyDict;
 
 use crate::arrays::{Table, Vector, copied, pairs, table, vector};
 use crate::error::detached;
+use crate::file_path::FilePath;
 use crate::scene::Scene;
 use crate::watcher::Watcher;
 
@@ -35,8 +35,8 @@ pub fn run(py: Python<'_>, scene: &Scene, callback: Option<Py<PyAny>>, interval:
 
 /// Reads a result file, or what its run has so far.
 #[pyfunction]
-pub fn read(py: Python<'_>, path: PathBuf) -> PyResult<Record> {
-    Ok(Record { core: detached(py, || Ok::<_, StorageError>(checkpoint::so_far(&path)?.record))? })
+pub fn read(py: Python<'_>, path: FilePath) -> PyResult<Record> {
+    Ok(Record { core: detached(py, || Ok::<_, StorageError>(checkpoint::so_far(&path.0)?.record))? })
 }
 
 #[pymethods]
@@ -235,13 +235,13 @@ impl Record {
     }
 
     /// Writes a result file.
-    fn save(&self, py: Python<'_>, path: PathBuf, replace: bool) -> PyResult<()> {
-        detached::<_, StorageError>(py, || hdf5_file::write(&self.core, &path, replace))
+    fn save(&self, py: Python<'_>, path: FilePath, replace: bool) -> PyResult<()> {
+        detached::<_, StorageError>(py, || hdf5_file::write(&self.core, &path.0, replace))
     }
 
     /// Writes a page for the browser.
-    fn view(&self, py: Python<'_>, path: PathBuf, replace: bool) -> PyResult<()> {
-        detached::<_, PageError>(py, || page::view(&self.core, &path, replace))
+    fn view(&self, py: Python<'_>, path: FilePath, replace: bool) -> PyResult<()> {
+        detached::<_, PageError>(py, || page::view(&self.core, &path.0, replace))
     }
 }
 

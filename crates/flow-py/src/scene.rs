@@ -1,7 +1,5 @@
 //! Scenes: text in, text out.
 
-use std::path::PathBuf;
-
 use flow_core::run;
 use flow_core::run::scene::Formula;
 use numpy::PyReadonlyArray1;
@@ -9,6 +7,7 @@ use pyo3::prelude::*;
 
 use crate::arrays::{Vector, vector};
 use crate::error::detached;
+use crate::file_path::file_path;
 use crate::record::Record;
 
 /// A scene that has been checked.
@@ -24,7 +23,8 @@ pub struct Scene {
 impl Scene {
     /// Reads a scene file.
     #[staticmethod]
-    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+    fn read(py: Python<'_>, path: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let path = file_path(path, "SceneError")?;
         let core = detached(py, || run::Scene::read(&path))?;
         Ok(Self { core, source_name: path.display().to_string() })
     }

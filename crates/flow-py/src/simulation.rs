@@ -1,6 +1,5 @@
 //! Runs that are driven from Python, step by step.
 
-use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard};
 use std::time::Duration;
 
@@ -11,6 +10,7 @@ use pyo3::prelude::*;
 
 use crate::arrays::{Table, Vector, table, vector};
 use crate::error::detached;
+use crate::file_path::FilePath;
 use crate::record::Record;
 use crate::scene::Scene;
 use crate::watcher::Watcher;
@@ -41,8 +41,8 @@ impl Simulation {
 
     /// Goes on from a checkpoint.
     #[staticmethod]
-    fn resume(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let core = detached::<_, StorageError>(py, || checkpoint::read(&path)?.simulation(&path))?;
+    fn resume(py: Python<'_>, path: FilePath) -> PyResult<Self> {
+        let core = detached::<_, StorageError>(py, || checkpoint::read(&path.0)?.simulation(&path.0))?;
         Ok(Self { core: Mutex::new(core) })
     }
 
@@ -133,10 +133,10 @@ impl Simulation {
     }
 
     /// Writes a checkpoint, in place of another one; of another file only if `replace`.
-    fn checkpoint(&self, py: Python<'_>, path: PathBuf, replace: bool) -> PyResult<()> {
+    fn checkpoint(&self, py: Python<'_>, path: FilePath, replace: bool) -> PyResult<()> {
         let guard = self.lock()?;
         let simulation = &*guard;
-        detached(py, || checkpoint::write(simulation, &path, replace))
+        detached(py, || checkpoint::write(simulation, &path.0, replace))
     }
 }
 

@@ -1,6 +1,5 @@
 //! Ladders of tolerances: measurements in, arrays and a figure out.
 
-use std::path::PathBuf;
 use std::time::Duration;
 
 use flow_core::output::picture::{Options, PictureError, plot_tradeoff};
@@ -10,6 +9,7 @@ use pyo3::prelude::*;
 
 use crate::arrays::{Table, Vector, table, vector};
 use crate::error::{detached, raised};
+use crate::file_path::FilePath;
 use crate::scene::Scene;
 use crate::tradeoff_parts::{self as parts, ReferenceParts, RungParts, SpanParts};
 use crate::watcher::{LadderWatcher, Watcher};
@@ -183,8 +183,8 @@ impl Tradeoff {
     }
 
     /// Draws the figure of `curveflow tradeoff` into a PNG or SVG file.
-    fn picture(&self, py: Python<'_>, path: PathBuf, replace: bool) -> PyResult<()> {
+    fn picture(&self, py: Python<'_>, path: FilePath, replace: bool) -> PyResult<()> {
         let options = Options { replace, ..Options::default() };
-        detached::<_, PictureError>(py, || plot_tradeoff(&self.core, &path, &options))
+        detached::<_, PictureError>(py, || plot_tradeoff(&self.core, &path.0, &options))
     }
 }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields
 from typing import Any, TypeVar
 
@@ -22,10 +22,13 @@ def value(key: str, given: object) -> str:
     """Write the value of a key.
 
     Raises:
+        SceneError: a text has half a character.
         TypeError: there is no such value in TOML.
     """
     if isinstance(given, np.generic | np.ndarray):
         given = given.tolist()
+    if isinstance(given, str):
+        check_characters(key, given)
     if isinstance(given, bool | int | str):
         return json.dumps(given, ensure_ascii=False).replace("\x7f", "\\u007F")
     if isinstance(given, float):
@@ -39,6 +42,44 @@ def value(key: str, given: object) -> str:
             f"{key}: a function cannot be differentiated; write its expression as text, for example \"kappa^2\""
         )
     raise TypeError(f"{key}: {_described(given)} is not a number, text, truth value, table of a scene or list of these")
+
+
+def check_characters(key: str, text: str) -> None:
+    """Refuse what no file can hold: surrogates that stand alone, as in names of files that are not UTF-8.
+
+    Raises:
+        SceneError: there is one.
+    """
+    try:
+        text.encode()
+    except UnicodeEncodeError as error:
+        raise half_character(key, error) from None
+
+
+def half_character(key: str, error: UnicodeEncodeError) -> SceneError:
+    """Return what to raise where a text has a surrogate that stands alone."""
+    shown = key.encode(errors="backslashreplace").decode()
+    half = ascii(error.object[error.start])
+    return SceneError(f"scene, {shown}\n  {half} is half a character, which no text can hold; remove it")
+
+
+def changes(values: Mapping[str, object], table: str = "") -> Iterator[tuple[str, str]]:
+    """Write the values of dotted keys, those of nested tables too; nothing for one that is to be removed.
+
+    Raises:
+        TypeError: the values are no mapping, a key is no text, or there is no such value in TOML.
+    """
+    if not isinstance(values, Mapping):
+        raise TypeError(f'values is {values!r:.60}, but it must map keys to values: {{"accuracy.tolerance": 1e-4}}')
+    for name, given in values.items():
+        if not isinstance(name, str):
+            raise TypeError(f'the key {name!r:.60} is no text; write keys like "accuracy.tolerance"')
+        check_characters(name, name)
+        key = table + name
+        if isinstance(given, Mapping):
+            yield from changes(given, f"{key}.")
+        else:
+            yield key, "" if given is None else value(key, given)
 
 
 def table(name: str, given: object, *kinds: type[Table]) -> str:
@@ -76,6 +117,9 @@ def energy_tables(given: Iterable[EnergyTerm]) -> str:
 def _listed(key: str, given: Iterable[T], kinds: tuple[type[T], ...]) -> list[T]:
     if isinstance(given, Table):
         raise TypeError(f"{key}: {_described(given)} stands alone; put it into a list, [{_described(given)}(...)]")
+    if not isinstance(given, Iterable):
+        names = ", ".join(kind.__name__ for kind in kinds)
+        raise TypeError(f"{key}: {_described(given)} is not a list of objects of: {names}")
     return [_checked(f"{key}.{index}", table, kinds) for index, table in enumerate(given)]
 
 

@@ -13,10 +13,15 @@ pub(super) const NO_VALUE: &str = "no value after `=`";
 /// Longer values and lines are cut.
 const MAX_CHARACTERS: usize = 100;
 
-/// Text as it can be shown on a terminal: one line, no control characters, not too long.
+/// Text as it can be shown on a terminal: one line, no control characters, no blanks around it, not too long.
 pub(super) fn plain(text: &str) -> String {
+    verbatim(text.trim())
+}
+
+/// [`plain`] with the blanks around it: those of a key are a part of what is wrong with it.
+fn verbatim(text: &str) -> String {
     let mut out = String::new();
-    for (count, c) in text.trim().chars().enumerate() {
+    for (count, c) in text.chars().enumerate() {
         if count == MAX_CHARACTERS {
             out.push('…');
             break;
@@ -70,7 +75,7 @@ impl Display for Place {
     fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::Line { number, text } => write!(out, "line {number} | {text}"),
-            Self::Override { key, value } => write!(out, "--set {}={}", plain(key), plain(value)),
+            Self::Override { key, value } => write!(out, "--set {}={}", verbatim(key), plain(value)),
             Self::Key(key) => write!(out, "{}", plain(key)),
             Self::Nowhere => write!(out, "whole file"),
         }
@@ -80,7 +85,7 @@ impl Display for Place {
 impl Display for Problem {
     #[cold]
     fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
-        write!(out, "{}\n  {}", self.place, sentence(&plain(&self.key), &self.fault))
+        write!(out, "{}\n  {}", self.place, sentence(&verbatim(&self.key), &self.fault))
     }
 }
 

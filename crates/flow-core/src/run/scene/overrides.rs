@@ -70,12 +70,7 @@ fn set<'i>(
     value: Option<DeValue<'i>>,
 ) -> Result<(), (String, &'static str)> {
     let segments: Vec<&str> = path.split('.').collect();
-    let shaped =
-        |segment: &&str| !segment.is_empty() && !segment.chars().any(|c| c.is_control() || c.is_whitespace());
-    if segments.len() > MAX_DEPTH || !segments.iter().all(shaped) {
-        let reason = "the key is not a dotted path".to_owned();
-        return Err((reason, "write it like accuracy.tolerance=1e-6"));
-    }
+    check(&segments)?;
     let mut table = document;
     let mut rest = segments.as_slice();
     while let [segment, tail @ ..] = rest {
@@ -113,6 +108,19 @@ fn set<'i>(
         };
     }
     Ok(())
+}
+
+/// What every key is: names, each before a dot or the end.
+fn check(segments: &[&str]) -> Result<(), (String, &'static str)> {
+    let has = |is: fn(char) -> bool| segments.iter().any(|segment| segment.contains(is));
+    let reason = if has(char::is_whitespace) {
+        "the key has a blank in it"
+    } else if segments.len() > MAX_DEPTH || has(char::is_control) || segments.contains(&"") {
+        "the key is not a dotted path"
+    } else {
+        return Ok(());
+    };
+    Err((reason.to_owned(), "write it like accuracy.tolerance=1e-6"))
 }
 
 fn element<'t, 'i>(
