@@ -7,7 +7,7 @@ import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from operator import index
-from typing import NoReturn, SupportsIndex
+from typing import NoReturn, SupportsFloat, SupportsIndex
 
 from . import _curveflow
 from .read_only import ReadOnlyDict
@@ -146,8 +146,8 @@ class Simulation:
         self,
         callback: Callable[[Simulation], object],
         *,
-        interval: float | None = None,
-        steps: int | None = None,
+        interval: SupportsFloat | None = None,
+        steps: SupportsIndex | None = None,
     ) -> None:
         """Call ``callback`` with this simulation on a schedule: :meth:`run` does so, :meth:`step` does not.
 
@@ -167,11 +167,13 @@ class Simulation:
             raise TypeError(f"callback is {callback!r:.60}, which cannot be called")
         if (interval is None) == (steps is None):
             raise ValueError("give either interval or steps")
-        if interval is not None and not (0 < interval < math.inf):
+        if interval is not None and not (math.isfinite(interval) and float(interval) > 0):
             raise ValueError(f"interval = {interval} must be positive and finite")
         if steps is not None and index(steps) < 1:
             raise ValueError(f"steps = {steps} must be at least 1")
-        scheduled = _Scheduled(callback, interval, steps)
+        scheduled = _Scheduled(
+            callback, None if interval is None else float(interval), None if steps is None else index(steps)
+        )
         scheduled.pass_by(self.time, self.steps)
         self._scheduled.append(scheduled)
 
@@ -189,7 +191,7 @@ class Simulation:
 
     def run(
         self,
-        until: float = math.inf,
+        until: SupportsFloat = math.inf,
         *,
         progress: bool = False,
         callback: Callable[[Progress], object] | None = None,
@@ -213,6 +215,7 @@ class Simulation:
         """
         if math.isnan(until):
             raise ValueError("until = nan must be a time")
+        until = float(until)
         native, goes_on = self._native, self._call_due()
         with watching(progress, callback) as (watch, interval):
             while goes_on:

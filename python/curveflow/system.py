@@ -1,6 +1,6 @@
 """The system of ordinary differential equations of a scene, for integrators from outside."""
 
-from typing import NoReturn, SupportsIndex
+from typing import NoReturn, SupportsFloat, SupportsIndex
 
 import numpy as np
 from numpy.typing import NDArray
@@ -81,7 +81,7 @@ class System:
         self._native.jacobian_product(v, out)
         return out
 
-    def factorise(self, gamma: float) -> bool:
+    def factorise(self, gamma: SupportsFloat) -> bool:
         """Prepare the preconditioner of I - ``gamma`` J, with J of the last :meth:`linearise`.
 
         Args:

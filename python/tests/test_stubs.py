@@ -7,3 +7,28 @@ def test_the_stubs_match_the_extension(tmp_path: Path):
     command = [sys.executable, "-m", "mypy.stubtest", "curveflow"]
     done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+NUMBERS = """
+import numpy as np
+import curveflow as cf
+
+scene = cf.Scene.shipped("circle")
+simulation = cf.Simulation(scene)
+simulation.add_callback(print, interval=np.float32(10))
+simulation.add_callback(print, steps=np.int64(10**6))
+simulation.run(until=np.float32(0.1))
+simulation.run(until=np.int64(1))
+cf.tradeoff(scene, [np.float32(1e-2)], reference_nodes=np.int64(64)).cheapest(np.float32(0.1))
+system = cf.System(scene)
+system.linearise(system.initial)
+system.factorise(np.float32(0.1))
+"""
+
+
+def test_numbers_of_numpy_are_taken_and_so_say_the_types(tmp_path: Path):
+    path = tmp_path / "numbers_of_numpy.py"
+    path.write_text(NUMBERS)
+    for command in ([sys.executable, "-m", "mypy", "--strict", path], [sys.executable, path]):
+        done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path)
+        assert done.returncode == 0, done.stdout + done.stderr
