@@ -48,7 +48,7 @@ fn three_fold_holds_what_it_says() {
     assert_eq!(scene.curve.shape, Shape::Trillium {});
     assert_eq!(scene.curve.turning_number, 1);
     assert_eq!(scene.density[0].name, "protein");
-    assert_eq!(scene.density[0].initial.variables(), ["s"]);
+    assert_eq!(scene.density[0].initial.formula().unwrap().variables(), ["s"]);
     let agents = scene.energy.agents.as_ref().unwrap();
     assert_eq!((agents.density.as_str(), agents.epsilon, agents.delta), ("protein", 0.05, 0.2));
     assert_eq!(agents.preferred_curvature.text(), "1.3 - 2.0/0.76*(rho - 0.19)");
@@ -182,7 +182,7 @@ fn set_changes_adds_and_creates() {
     let scene = set(text, &changes);
     assert_eq!((scene.accuracy.tolerance, scene.accuracy.nodes), (1e-3, Nodes::Count(64)));
     assert_eq!(scene.title, "by hand: a = \"b\"");
-    assert_eq!(scene.density[0].initial.text(), "0.5 + 0.1*s");
+    assert_eq!(scene.density[0].initial.formula().unwrap().text(), "0.5 + 0.1*s");
     assert_eq!(scene.energy.regularization.as_ref().unwrap().delta, 0.1);
     assert_eq!(scene.curve.shape, Shape::Circle { radius: 3.0 });
     println!("{}", scene.text());

@@ -142,7 +142,7 @@ fn initial_state(
     let fractions: Vec<f64> = grading.map_or_else(uniform, |grading| grading.fractions());
     let mut densities = Vec::new();
     for density in &scene.density {
-        let values = density.initial.values(&fractions);
+        let values = density.initial.values(&fractions, &curve.parameter, scene.curve.points().is_some());
         if let Some(node) = values.iter().position(|value| !value.is_finite()) {
             return Err(SetupError::DensityNotFinite {
                 density: density.name.clone(),

@@ -32,8 +32,12 @@ pub(super) fn missed(
     let mut worst = turning.miss(layout, state, 0, &turns, least_mean_square(0, length));
     if !scene.density.is_empty() {
         let mut places = Places::new(DENSITY_PLACES, layout.nodes(), grading);
+        let through_points = scene.curve.points().is_some();
+        let needs_parameters =
+            through_points && scene.density.iter().any(|density| density.initial.formula().is_none());
+        let parameters = if needs_parameters { curve.at(&places.fractions)?.parameter } else { Vec::new() };
         for (index, density) in scene.density.iter().enumerate() {
-            let values = density.initial.values(&places.fractions);
+            let values = density.initial.values(&places.fractions, &parameters, through_points);
             let masses: Vec<f64> = values.iter().map(|rho| rho * length).collect();
             let floor = least_mean_square(1 + index, length);
             worst = f64::max(worst, places.miss(layout, state, 1 + index, &masses, floor));

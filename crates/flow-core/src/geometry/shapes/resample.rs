@@ -24,6 +24,8 @@ pub struct Resampled {
     pub centre: [f64; 2],
     /// Position γ of the nodes.
     pub position: Vec<[f64; 2]>,
+    /// Parameter φ/2π of the nodes, in [0, 1).
+    pub parameter: Vec<f64>,
 }
 
 /// A curve by its arc length, which is integrated once for all nodes that it gets.
@@ -95,6 +97,7 @@ impl ByArcLength {
             angle: places.iter().zip(&jets).enumerate().map(angle).sum::<f64>() / nodes as f64,
             centre: [mean_of(0), mean_of(1)],
             position: jets.iter().map(|[position, ..]| *position).collect(),
+            parameter: phi.iter().map(|phi| phi / TAU).collect(),
         })
     }
 }

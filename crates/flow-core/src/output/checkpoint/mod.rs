@@ -5,6 +5,7 @@ mod format;
 mod lock;
 mod pair;
 mod saving;
+#[cfg(feature = "hdf5")]
 mod so_far;
 
 pub use file::{read, write};
@@ -12,4 +13,5 @@ pub use format::{Checkpoint, SceneTexts, decode, encode};
 pub use lock::Lock;
 pub use pair::{Found, Pair};
 pub use saving::{Ended, Saving, run_saving};
+#[cfg(feature = "hdf5")]
 pub use so_far::{SoFar, so_far};

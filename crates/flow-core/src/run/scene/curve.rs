@@ -76,6 +76,15 @@ pub enum Shape {
 }
 
 impl Curve {
+    /// How many points it goes through, if it goes through points.
+    #[must_use]
+    pub fn points(&self) -> Option<usize> {
+        match &self.shape {
+            Shape::Points { points } => Some(points.len()),
+            _ => None,
+        }
+    }
+
     pub(super) fn read(mut section: Section<'_>) -> Option<Self> {
         let shape = section.required("shape", "shape = \"circle\"");
         let name = shape.as_ref().and_then(Entry::text);

@@ -8,6 +8,7 @@ use super::entry::Entry;
 use super::error::{Bound, Fault, Problem};
 use super::formula::Formula;
 use super::keywords::Within;
+use super::profile::Profile;
 use super::section::Section;
 use crate::expression::ExpressionError;
 
@@ -44,8 +45,9 @@ pub struct Density {
     /// Its name, an identifier: used in expressions, in the output file and in Python.
     #[schemars(transform = identifier)]
     pub name: String,
-    /// Initial value, an expression of `s` in `[0, 1)`, the fraction of arc length from the first point.
-    pub initial: Formula,
+    /// Initial value: an expression of `s` in `[0, 1)`, the fraction of arc length from the first point; or a list of numbers, one for
+    /// each point of a curve through points, on other curves at equal distances.
+    pub initial: Profile,
     /// How it moves along the curve.
     pub mobility: DensityMobility,
     /// Weight w > 0 of the diffusion, an expression of `s`; 1 unless given.
@@ -89,8 +91,8 @@ impl Names {
 }
 
 impl Density {
-    /// Reads `[[density]]`; the names come second, whether or not the rest is in order.
-    pub(super) fn read_all(entry: Option<Entry<'_>>) -> (Option<Vec<Self>>, Names) {
+    /// Reads `[[density]]` on a curve through so many `points`, if it is one; the names come second, whether or not the rest is in order.
+    pub(super) fn read_all(entry: Option<Entry<'_>>, points: Option<usize>) -> (Option<Vec<Self>>, Names) {
         let Some(list) = entry else { return (Some(Vec::new()), Names { known: Vec::new(), are_all: true }) };
         let Some(entries) = list.list("a list of tables") else { return (None, Names::default()) };
         if entries.len() > MAX_DENSITIES {
@@ -100,17 +102,17 @@ impl Density {
             return (None, Names::default());
         }
         let (mut known, count) = (Vec::new(), entries.len());
-        let read = |entry: Entry<'_>| Self::read(entry.section()?, &mut known);
+        let read = |entry: Entry<'_>| Self::read(entry.section()?, points, &mut known);
         let densities: Vec<Option<Self>> = entries.into_iter().map(read).collect();
         let are_all = known.len() == count;
         (densities.into_iter().collect(), Names { known, are_all })
     }
 
-    fn read(mut section: Section<'_>, names: &mut Vec<String>) -> Option<Self> {
+    fn read(mut section: Section<'_>, points: Option<usize>, names: &mut Vec<String>) -> Option<Self> {
         let name = section.required("name", "name = \"protein\"");
         let name = name.and_then(|entry| checked_name(&entry, names));
         let initial = section.required("initial", "initial = \"0.5 + 0.1*cos(2*pi*s)\"");
-        let initial = initial.and_then(|entry| entry.formula(&["s"]));
+        let initial = initial.and_then(|entry| Profile::read(&entry, points));
         let mobility = section.required("mobility", "mobility = \"diffusion\"");
         let mobility: Option<DensityMobility> = mobility.and_then(|entry| entry.choice());
         let weight =

@@ -252,7 +252,7 @@ fn read(mut root: Section<'_>) -> Option<Scene> {
     let title = root.get("title").map_or(Some(""), |entry| entry.text());
     let curve = root.required("curve", "[curve] with shape = \"circle\" and radius = 1.0");
     let curve = curve.and_then(|entry| Curve::read(entry.section()?));
-    let (density, names) = Density::read_all(root.get("density"));
+    let (density, names) = Density::read_all(root.get("density"), curve.as_ref().and_then(Curve::points));
     let energy = root.required("energy", "[energy.bending] with rigidity = 1.0");
     let energy = energy.and_then(|entry| {
         let energy = Energy::read(entry.section()?, &names.known);

@@ -80,6 +80,10 @@ impl<'d> Entry<'d> {
         self.value.as_str() == Some(text)
     }
 
+    pub(super) fn is_list(&self) -> bool {
+        self.value.is_array()
+    }
+
     pub(super) fn boolean(&self) -> Option<bool> {
         self.value.as_bool().or_else(|| self.wrong_type("true or false"))
     }
@@ -107,9 +111,14 @@ impl<'d> Entry<'d> {
 
     /// A number, or an expression of the variables.
     pub(super) fn formula(&self, variables: &[&str]) -> Option<Formula> {
+        self.formula_or("a number or an expression in quotes", variables)
+    }
+
+    /// The same where `expected` says what else could stand.
+    pub(super) fn formula_or(&self, expected: &'static str, variables: &[&str]) -> Option<Formula> {
         let Some(text) = self.value.as_str() else {
             if self.as_number().is_none() {
-                return self.wrong_type("a number or an expression in quotes");
+                return self.wrong_type(expected);
             }
             let number = self.number(Bound::Finite, "write an ordinary number")?;
             return Some(Formula::constant(number, variables));
