@@ -5,13 +5,13 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from . import _curveflow
 from .errors import SceneError
 from .model import Accuracy, Curve, Density, EnergyTerm, Flow, Output, Time, reading, writing
-from .model.curve import CURVES
+from .model.curve import CURVES, Points
 
 if TYPE_CHECKING:
     from .result import Result
@@ -129,6 +129,31 @@ class Scene(_Checked):
             known = ", ".join(texts)
             raise SceneError(f"no scene called {name!r} comes with Curveflow; those that do: {known}")
         return cls.parse(texts[name], f"{name}.toml")
+
+    def starting_from(self, result: Result, frame: int = -1) -> Scene:
+        """Return this scene with the curve and the densities of a frame of a result for its initial ones.
+
+        >>> import curveflow as cf
+        >>> relaxed = cf.run(cf.Scene.shipped("circle").with_values({"time.end": 0.1}))
+        >>> stiffer = cf.Scene.shipped("circle").with_values({"energy.bending.rigidity": 2.0})
+        >>> cf.run(stiffer.starting_from(relaxed)).length[0] == relaxed.length[-1]
+        True
+
+        Densities that the result lacks start as this scene says. Targets that are relative to the initial curve
+        (``target_ratio``) are relative to the new one. To go on with the same scene, use :meth:`Simulation.checkpoint`.
+
+        Args:
+            result: of any scene whose curve has 8 to 16384 nodes.
+            frame: index of the frame; the last one unless given.
+
+        Raises:
+            IndexError: there is no such frame.
+            SceneError: the frame has more nodes.
+        """
+        curve = Points(result.position[frame], turning_number=result.scene.curve.turning_number)
+        known = result.density
+        density = [replace(one, initial=known[one.name][frame]) if one.name in known else one for one in self.density]
+        return replace(self, curve=curve, density=density)
 
     @classmethod
     def of(cls, result: Result) -> Scene:

@@ -211,7 +211,7 @@ fn numbers_of_entries_are_those_of_the_reader() {
             seen += 1;
         }
     }
-    assert_eq!(seen, 5);
+    assert_eq!(seen, 6);
 }
 
 #[test]
