@@ -17,6 +17,12 @@ pub enum Failure {
     /// The same, and a term of the energy is not finite where the next step leads.
     #[error("{error}; a little later, the energy term `{}` is not finite: {culprit}", .culprit.found.term)]
     NotFinite { error: IntegrationError, culprit: Box<Culprit> },
+    /// The same, and nodes that move with the curve have come to lie at very different distances.
+    #[error(
+        "{error}; co-moving nodes lie {ratio:.0} times as far apart in one place as in another: take gauge = \
+             \"scaled-arc-length\", or a [[flow.switch]] to it before"
+    )]
+    UnevenNodes { error: IntegrationError, ratio: f64 },
     /// The most nodes do not resolve the state.
     #[error(transparent)]
     Resolution(#[from] ResolutionError),

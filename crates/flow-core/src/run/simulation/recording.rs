@@ -12,6 +12,8 @@ use crate::run::seconds::Seconds;
 
 /// Part of the time of the integration that the replay may take which tells the parts of the evaluations.
 const REPLAY_SHARE: f64 = 0.003;
+/// Ratio of the distances of co-moving nodes from which on they may be why a run ends.
+const UNEVEN: f64 = 20.0;
 
 impl Simulation {
     /// The state at hand as a frame; it is not saved.
@@ -93,9 +95,20 @@ impl Simulation {
             // What is no curve says nothing of the terms.
             if flow.current().length() > 0.0 { flow.not_finite() } else { None }
         });
-        let Some(found) = found else { return self.fail(error) };
+        let Some(found) = found else { return self.fail_uneven(error) };
         let culprit = Culprit { found, densities: self.record.densities.clone() };
         self.fail(Failure::NotFinite { error, culprit: culprit.into() });
+    }
+
+    /// Ends the run with `error`, and says so if its nodes lie very unevenly.
+    fn fail_uneven(&mut self, error: IntegrationError) {
+        let flow = self.on.membrane.flow();
+        flow.set_current(self.integration.stepper().state());
+        let ratio = flow.current().moving_metric().map_or(1.0, |metric| {
+            let of = |pick: fn(f64, f64) -> f64| metric.weight().iter().copied().reduce(pick).unwrap_or(1.0);
+            of(f64::max) / of(f64::min)
+        });
+        if ratio > UNEVEN { self.fail(Failure::UnevenNodes { error, ratio }) } else { self.fail(error) }
     }
 
     pub(super) fn fail(&mut self, failure: impl Into<Failure>) {
