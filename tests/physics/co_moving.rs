@@ -2,7 +2,7 @@
 
 use curveflow_tests::physics::fields::Interpolant;
 use curveflow_tests::{largest_rise, last, run, scene, shipped};
-use flow_core::run::{Frame, Record, StopReason};
+use flow_core::run::{Frame, Quiet, Record, StopReason};
 
 /// Largest distance of the nodes of `frame` from the curve `uniform`, which has uniform nodes, relative to the length.
 fn distance(uniform: &Frame, frame: &Frame) -> f64 {
@@ -273,5 +273,24 @@ fn a_switch_at_once_is_no_rest() {
         // E = π/R, R⁴ = 1 + 2t.
         let exact = std::f64::consts::PI / 2.0_f64.powf(0.25);
         assert!((last(&record).energy / exact - 1.0).abs() < 1e-4, "{time}: {}", last(&record).energy);
+    }
+}
+
+/// A circle that shrinks to a point, on nodes as uneven as they were put: what else may be why is said where it may.
+#[test]
+fn where_co_moving_nodes_lie_unevenly_a_failure_says_so() {
+    for (grading, uneven) in [(0.92, true), (0.3, false)] {
+        let text = format!(
+            "curve = {{ shape = 'circle', radius = 1.0 }}\n\
+             energy.length.tension = 1.0\n\
+             time.end = 2.0\n\
+             flow = {{ gauge = 'co-moving', grading = '1 + {grading}*cos(2*pi*s)' }}\n\
+             accuracy = {{ tolerance = 1e-3, nodes = 128 }}\n"
+        );
+        let record = flow_core::run::run(&scene(&text), &mut Quiet).expect("an initial state");
+        let StopReason::Failed(message) = record.stop_reason else { panic!("{:?}", record.stop_reason) };
+        assert!(message.contains("step size fell"), "{message}");
+        assert_eq!(message.contains("24 times as far apart"), uneven, "{message}");
+        assert_eq!(message.contains("scaled-arc-length"), uneven, "{message}");
     }
 }

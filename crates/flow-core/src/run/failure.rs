@@ -19,8 +19,8 @@ pub enum Failure {
     NotFinite { error: IntegrationError, culprit: Box<Culprit> },
     /// The same, and nodes that move with the curve have come to lie at very different distances.
     #[error(
-        "{error}; co-moving nodes lie {ratio:.0} times as far apart in one place as in another: take gauge = \
-             \"scaled-arc-length\", or a [[flow.switch]] to it before"
+        "{error}; co-moving nodes lie {ratio:.0} times as far apart in one place as in another: if the curve is sound, \
+         take gauge = \"scaled-arc-length\", or a [[flow.switch]] to it before"
     )]
     UnevenNodes { error: IntegrationError, ratio: f64 },
     /// The most nodes do not resolve the state.
