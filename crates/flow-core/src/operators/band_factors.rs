@@ -1,4 +1,4 @@
-//! The loops of the cyclic banded factorisation, over all segments at once (see `cyclic_banded.rs`).
+//! The loops of the cyclic banded factorisation, over all segments at once (see `cyclic_banded`).
 
 #![allow(clippy::inline_always)] // these bodies must be compiled inside each version of the loops
 

@@ -74,6 +74,31 @@ fn bands_that_are_none() {
     panics("offset -3 in row 4", || matrix.set(4, -3, 1.0));
     panics("offset 0 in row 12 of 12", || matrix.set(12, 0, 1.0));
     matrix.set(11, 2, 1.0);
+    panics("in a row of 12", || matrix.set_row(12, 0, &[1.0]));
+    panics("1 entries from offset -3", || matrix.set_row(4, -3, &[1.0]));
+    panics("4 entries from offset 0", || matrix.set_row(4, 0, &[1.0; 4]));
+    panics("1 entries from offset 3", || matrix.set_rows(0, 3, &[[1.0; 8]]));
+    panics("in a row of 12", || matrix.set_rows(12, 0, &[[1.0; 8]]));
+    matrix.set_row(11, -2, &[1.0; 5]);
+}
+
+#[test]
+fn bands_whose_entries_are_gone_or_that_have_no_factors() {
+    let mut x = [6.0; 12];
+    let mut matrix = CyclicBanded::<1>::new(12);
+    (0..12).for_each(|row| matrix.set_row(row, -1, &[1.0, 4.0, 1.0]));
+    panics("is not factorised", || matrix.solve(&mut x));
+    matrix.factorise().unwrap();
+    panics("clear it", || _ = matrix.factorise());
+    panics("clear it", || matrix.set(3, 0, 4.0));
+    panics("clear it", || matrix.set_row(3, -1, &[1.0, 4.0, 1.0]));
+    panics("clear it", || matrix.set_rows(0, 0, &[[4.0; 8]]));
+    matrix.solve(&mut x);
+    assert!(x.iter().all(|x| (x - 1.0).abs() < 1e-14), "the refused calls changed nothing: {x:?}");
+    matrix.clear();
+    matrix.factorise().expect_err("a zero matrix");
+    panics("or that failed", || matrix.solve(&mut x));
+    panics("clear it", || _ = matrix.factorise());
 }
 
 #[test]

@@ -5,19 +5,43 @@
 //! blocks are matrices with Dirichlet ends); what is left couples the separators, a small dense matrix, which is
 //! pivoted. See `THEORY.md`, eq. (O2).
 
+mod entries;
+
 use std::ops::Range;
 
 use super::band_factors::{Factors, LANES, Lane, eliminate, substitute_backward, substitute_forward};
 use super::factorisation_error::FactorisationError;
 use super::small_lu::SmallLu;
 
-/// A cyclic matrix with `B` bands on each side of the diagonal.
+/// A cyclic matrix with `B` bands on each side of the diagonal: A x = b in `O(rows)`. See `THEORY.md`, eq. (O2).
+///
+/// It is filled in, factorised in place, and solves from then on, until [`CyclicBanded::clear`] makes room for other entries.
 ///
 /// Rows have a place within their segment: first unit rows that make all segments equally long, then the interior,
 /// then the `B` rows of the separator.
+///
+/// # No pivoting
+/// The elimination takes the pivots where they stand, but for the last few unknowns of each segment. It is stable for matrices that are
+/// diagonally dominant or symmetric and positive definite (nearly, if not exactly). Others may have a pivot of zero though they are
+/// invertible, which [`CyclicBanded::factorise`] tells, or a small one, by whose inverse the rounding of the solution grows unseen:
+/// compare A x with b there.
+///
+/// ```
+/// use flow_core::operators::CyclicBanded;
+///
+/// // 4x_i + x_{i−1} + x_{i+1} = 6 on a ring: x = 1.
+/// let mut matrix = CyclicBanded::<1>::new(32);
+/// (0..32).for_each(|row| matrix.set_row(row, -1, &[1.0, 4.0, 1.0]));
+/// matrix.factorise()?;
+/// let mut x = [6.0; 32];
+/// matrix.solve(&mut x);
+/// assert!(x.iter().all(|x| (x - 1.0).abs() < 1e-14));
+/// # Ok::<(), flow_core::operators::FactorisationError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct CyclicBanded<const B: usize> {
     rows: usize,
+    holds: Holds,
     /// Rows that belong together.
     block: usize,
     segments: usize,
@@ -28,6 +52,15 @@ pub struct CyclicBanded<const B: usize> {
     reduced: Vec<f64>,
     /// The right-hand side by segments, after `B` zeros.
     work: Vec<Lane>,
+}
+
+/// What is in the room of the entries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Holds {
+    Entries,
+    Factors,
+    /// What a failed factorisation left behind.
+    Nothing,
 }
 
 impl<const B: usize> CyclicBanded<B> {
@@ -55,6 +88,7 @@ impl<const B: usize> CyclicBanded<B> {
         let longest = blocks.div_ceil(segments) * block;
         let mut banded = Self {
             rows,
+            holds: Holds::Entries,
             block,
             segments,
             starts,
@@ -97,82 +131,15 @@ impl<const B: usize> CyclicBanded<B> {
         (segment, self.padding(segment) + row - self.starts[segment])
     }
 
-    /// Sets every entry to zero, ready to be filled again.
-    pub fn clear(&mut self) {
-        self.factors.clear();
-        for lane in 0..LANES {
-            let unit_rows = if lane < self.segments { self.padding(lane) } else { self.places() };
-            (0..unit_rows).for_each(|row| self.factors.from(row, 0)[0][lane] = 1.0);
-        }
-    }
-
-    /// Sets the entry in `row` and column `row + offset` (cyclic), |`offset`| ≤ `B`.
-    ///
-    /// # Panics
-    /// If there is no such row, or the offset is larger.
-    pub fn set(&mut self, row: usize, offset: isize, value: f64) {
-        let inside = row < self.rows && offset.unsigned_abs() <= B;
-        assert!(inside, "offset {offset} in row {row} of {} with {B} bands on each side", self.rows);
-        let column = (row as isize + offset).rem_euclid(self.rows as isize) as usize;
-        let ((segment, r), (column_segment, c)) = (self.locate(row), self.locate(column));
-        let factors = &mut self.factors;
-        if segment == column_segment && c as isize - r as isize == offset {
-            factors.from(r, offset)[0][segment] = value;
-        } else if offset < 0 {
-            factors.right[r][c - factors.interior][segment] = value;
-        } else {
-            factors.bottom[c][r - factors.interior][column_segment] = value;
-        }
-    }
-
-    /// Sets consecutive entries of `row`, the first in column `row + first` (cyclic), none beyond the band.
-    pub fn set_row(&mut self, row: usize, first: isize, values: &[f64]) {
-        let (segment, r) = self.locate(row);
-        let start = r as isize + first;
-        if start < self.padding(segment) as isize || start as usize + values.len() > self.places() {
-            for (k, value) in values.iter().enumerate() {
-                self.set(row, first + k as isize, *value);
-            }
-            return;
-        }
-        for (entry, value) in self.factors.from(r, first).iter_mut().zip(values) {
-            entry[segment] = *value;
-        }
-    }
-
-    /// Sets consecutive entries of the rows at `place` in all segments, the first in the column `first` after the row, none beyond
-    /// the band.
-    pub fn set_rows(&mut self, place: usize, first: isize, values: &[Lane]) {
-        let (start, longest, interior) = (place as isize + first, self.places(), self.factors.interior);
-        if self.segments == LANES && start >= self.block as isize && start as usize + values.len() <= longest
-        {
-            return self.factors.from(place, first)[..values.len()].copy_from_slice(values);
-        }
-        for lane in 0..self.segments {
-            let next = (lane + 1) % self.segments;
-            let [padding, next_padding] = [lane, next].map(|lane| self.padding(lane));
-            if place < padding {
-                continue;
-            }
-            for (k, value) in values.iter().enumerate() {
-                let column = start + k as isize;
-                let entry = if column < padding as isize {
-                    &mut self.factors.right[place][(column + B as isize) as usize - padding][lane]
-                } else if column as usize >= longest {
-                    &mut self.factors.bottom[column as usize - longest + next_padding][place - interior][next]
-                } else {
-                    &mut self.factors.from(place, first + k as isize)[0][lane]
-                };
-                *entry = value[lane];
-            }
-        }
-    }
-
-    /// Factorises the matrix that was filled in.
+    /// Factorises the matrix that was filled in, in its place.
     ///
     /// # Errors
-    /// [`FactorisationError`] at the first pivot that is zero or not finite.
+    /// [`FactorisationError`] at the first pivot that is zero or not finite; nothing is held then.
+    /// # Panics
+    /// If it was factorised and not cleared since.
     pub fn factorise(&mut self) -> Result<(), FactorisationError> {
+        self.check_open();
+        self.holds = Holds::Nothing;
         if let Some((r, lane, pivot)) = eliminate(&mut self.factors) {
             return Err(FactorisationError { row: self.starts[lane] + r - self.padding(lane), pivot });
         }
@@ -180,7 +147,9 @@ impl<const B: usize> CyclicBanded<B> {
         self.separators.factorise().map_err(|FactorisationError { row, pivot }| {
             let end = self.starts[row / B + 1];
             FactorisationError { row: end - B + row % B, pivot }
-        })
+        })?;
+        self.holds = Holds::Factors;
+        Ok(())
     }
 
     /// The matrix of the separators; their rows in the segments keep the columns of the interior only.
@@ -216,8 +185,9 @@ impl<const B: usize> CyclicBanded<B> {
     /// rows, and so on.
     ///
     /// # Panics
-    /// If there is not one value per row.
+    /// If there is not one value per row, or no factorisation is held: before [`CyclicBanded::factorise`], and after one that failed.
     pub fn solve(&mut self, x: &mut [f64]) {
+        assert!(self.holds == Holds::Factors, "the matrix is not factorised, or that failed");
         assert_eq!(x.len(), self.rows, "length of the right-hand side");
         let (interior, segments) = (self.factors.interior, self.segments);
         for (lane, part) in (0..segments).flat_map(|lane| (0..self.block).map(move |part| (lane, part))) {
