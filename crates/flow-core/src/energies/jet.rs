@@ -131,6 +131,11 @@ impl Jet {
         self.second.iter().all(|value| value.is_finite())
     }
 
+    /// Whether nothing has been added to it; NaN is something.
+    pub(crate) fn is_zero(&self) -> bool {
+        [&self.value, &self.first, &self.second].into_iter().flatten().all(|value| *value == 0.0)
+    }
+
     /// e at the nodes, to be added to.
     pub fn value_mut(&mut self) -> &mut [f64] {
         &mut self.value

@@ -81,7 +81,9 @@ pub trait EnergyTerm: Debug + Send + Sync {
     /// Key of the term in scenes, in the output file and in Python.
     fn name(&self) -> &'static str;
 
-    /// Whether [`EnergyTerm::add_density`] adds anything.
+    /// Whether [`EnergyTerm::add_density`] adds anything. Where this or one of the other two flags says no, the part is not asked for:
+    /// runs with terms from outside and [`GradientFlow::check_derivatives`](crate::flow::GradientFlow::check_derivatives) look whether one
+    /// was forgotten.
     fn has_density(&self) -> bool {
         false
     }

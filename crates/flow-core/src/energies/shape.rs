@@ -43,6 +43,12 @@ impl ShapeFields {
         self.length = other.length;
     }
 
+    /// Whether nothing has been added to it; NaN is something.
+    pub(crate) fn is_zero(&self) -> bool {
+        let fields = self.position.iter().chain(&self.tangent).chain([&self.weight]);
+        self.length == 0.0 && fields.flatten().all(|value| *value == 0.0)
+    }
+
     /// Positions by component.
     #[must_use]
     pub fn positions(&self) -> [&[f64]; 2] {

@@ -22,7 +22,7 @@ mod slope_energy;
 
 pub use curve_fields::CurveFields;
 pub use density_mobility::{Carried, DensityMobility, Diffusion, Exchange, WeightedDiffusion};
-pub use energy_sum::{EnergySum, NotFinite, TermCost, TermPart, TermPlace};
+pub use energy_sum::{EnergySum, NotFinite, TermCost, TermPart, TermPlace, UndeclaredPart};
 pub use excess_density::ExcessDensity;
 pub use flow_map::FlowMap;
 pub use gauge::{CoMoving, Gauge, Graded, MetricRole, ScaledArcLength, Workspace};

@@ -58,7 +58,7 @@ impl Setup {
     /// The same with the terms that `terms` makes for a number of nodes, after those of the scene.
     ///
     /// # Errors
-    /// As [`Setup::new`], and [`SetupError::TermName`].
+    /// As [`Setup::new`], [`SetupError::TermName`] and [`SetupError::Undeclared`].
     pub fn with_terms(
         scene: &Scene,
         terms: impl Fn(usize) -> Vec<Box<dyn EnergyTerm>> + Send + Sync + 'static,
@@ -75,8 +75,12 @@ impl Setup {
         let layout = layout(scene, mesh.nodes);
         let area = area(&state, layout, &curve, grading.clone());
         let initial = Initial { length: initial_length, area, own };
-        let (flow, diagnostics) = flow(scene, &initial, mesh.nodes, grading)?;
+        let (mut flow, diagnostics) = flow(scene, &initial, mesh.nodes, grading)?;
         check_names(flow.energy_terms().names())?;
+        if initial.own.exist() {
+            flow.set_current(&state);
+            flow.undeclared_part().map_or(Ok(()), Err)?;
+        }
         limits::check(scene, layout, diagnostics.field_names().len())?;
         let solver = linear_solver(scene.accuracy.linear_solver);
         let membrane = Membrane::new(flow, solver, curve.turning_number, curve.angle);

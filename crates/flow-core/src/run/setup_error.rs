@@ -92,6 +92,9 @@ pub enum SetupError {
          have the same one; rename it"
     )]
     TermName { name: &'static str },
+    /// A term from outside would lose a part of its energy.
+    #[error(transparent)]
+    Undeclared(#[from] crate::flow::UndeclaredPart),
     /// A term refuses the initial data.
     #[error(transparent)]
     Term(#[from] crate::energies::TermFault),

@@ -1,4 +1,4 @@
-//! What becomes of a term whose derivatives are not those of its energy.
+//! What becomes of a term whose derivatives are not those of its energy, or who does not say what it has.
 
 use flow_core::energies::{EnergyTerm, Fields, Jet, Length, Order, ShapeFields};
 use flow_core::flow::{DerivativeErrors, LinearSolver};

@@ -9,6 +9,7 @@ mod refusal;
 mod simulation;
 mod slopes;
 mod stiff_length;
+mod undeclared;
 mod uniform;
 
 use std::sync::Arc;

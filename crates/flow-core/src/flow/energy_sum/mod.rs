@@ -8,6 +8,7 @@ mod density;
 mod not_finite;
 mod positions;
 mod stiffness;
+mod undeclared;
 
 use super::curve_fields::CurveFields;
 use super::graded_energy::{GradedEnergy, add_spectrum, mean_product};
@@ -24,6 +25,7 @@ use crate::operators::Derivative;
 
 pub use alone::TermCost;
 pub use not_finite::{NotFinite, TermPart, TermPlace};
+pub use undeclared::UndeclaredPart;
 
 /// All terms of a scene.
 ///

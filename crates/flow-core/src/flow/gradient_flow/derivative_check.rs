@@ -67,6 +67,9 @@ impl GradientFlow {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
+    /// # Panics
+    /// If a term adds a part that it does not declare (see [`UndeclaredPart`](crate::flow::UndeclaredPart)): it would be left out of the
+    /// flow, and of the comparison.
     /// # Source
     /// `THEORY.md`, eqs. (D3)–(D10): the derivatives are those of the discrete energy.
     pub fn check_derivatives(&mut self, y: &[f64]) -> Vec<DerivativeErrors> {
@@ -78,6 +81,10 @@ impl GradientFlow {
         let waves = probe.waves(y);
         probe.usual = waves.iter().enumerate().map(|(field, wave)| probe.motion_sizes(wave)[field]).collect();
         probe.usual.resize(layout.state_fields() + 1, AMPLITUDE * y[layout.length_index()]);
+        probe.at.set(&state, probe.grid, probe.derivative);
+        if let Some(part) = self.energy.undeclared(probe.at) {
+            panic!("{part}");
+        }
         let mut errors = Vec::new();
         self.energy.each_alone(|term| errors.push(probe.errors(term, &state, &waves)));
         errors

@@ -166,6 +166,14 @@ impl ShapeEnergy {
         energy
     }
 
+    /// Whether `term` has an energy of the positions at the fields `at`, or derivatives of one.
+    pub fn is_changed_by(&mut self, term: &mut dyn EnergyTerm, at: &CurveFields) -> bool {
+        self.embed(at);
+        self.dual.clear();
+        let energy = term.add_shape_energy(&self.shape, Order::Gradient, &mut self.dual);
+        energy != 0.0 || !self.dual.is_zero()
+    }
+
     /// Adds `multiplier` × area to the energy that was linearised last, and to its `gradient`.
     pub fn hold_area(&mut self, multiplier: f64, gradient: &mut IntrinsicGradient) {
         let mut held = Area::Pressure(-multiplier);

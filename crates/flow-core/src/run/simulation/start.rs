@@ -48,7 +48,7 @@ impl Simulation {
     /// again, to [`Simulation::resume_with_terms`].
     ///
     /// # Errors
-    /// As [`Simulation::new`], and [`SetupError::TermName`].
+    /// As [`Simulation::new`], [`SetupError::TermName`] and [`SetupError::Undeclared`].
     pub fn with_terms(
         scene: &Scene,
         terms: impl Fn(usize) -> Vec<Box<dyn EnergyTerm>> + Send + Sync + 'static,
