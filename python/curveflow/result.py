@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import tempfile
+import warnings
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
@@ -71,9 +72,17 @@ class Result(Frames):
 
         It is as given, except that it contains points that were read from a file: no other file is needed.
 
+        Energy terms that a program in Rust added to a run (``Simulation::with_terms``) are not in its scene, which makes another run
+        without them: a ``UserWarning`` names them.
+
         Raises:
             SceneError: this version cannot read the scene stored in the result file.
         """
+        if own := self._record.own_terms:
+            warnings.warn(
+                f"the run had energy terms from outside its scene ({', '.join(own)}): the scene alone is another run",
+                stacklevel=2,
+            )
         return self._scene or Scene._of(_curveflow.Scene.of_record(self._record))
 
     @cached_property

@@ -64,6 +64,12 @@ pub enum CliError {
          `curveflow resume`, or start anew with --replace", .output.display()
     )]
     OtherScene { output: PathBuf },
+    /// The run of a result had terms that no scene holds.
+    #[error(
+        "{}: the run had energy terms from outside its scene (`{}`), which this program does not have, and its scene alone is another \
+         run; run it by the program that made it", .result.display(), .terms.join("`, `")
+    )]
+    OwnTerms { result: PathBuf, terms: Vec<String> },
     /// A signal stopped a ladder.
     #[error("stopped by a signal after {measured} of the runs; try fewer tolerances, or looser ones")]
     LadderStopped { measured: usize },

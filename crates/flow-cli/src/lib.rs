@@ -92,7 +92,7 @@ fn exit_code(error: &CliError) -> u8 {
         | CliError::Stdout(_)
         | CliError::Signals(_) => 5,
         CliError::Stopped { .. } | CliError::LadderStopped { .. } => 6,
-        CliError::Unreadable(_) | CliError::OtherScene { .. } => 7,
+        CliError::Unreadable(_) | CliError::OtherScene { .. } | CliError::OwnTerms { .. } => 7,
     }
 }
 

@@ -94,3 +94,24 @@ fn another_program_is_named() {
     let info = folder.call(&["info", "old.h5", "--json"]);
     assert!(String::from_utf8_lossy(&info.stdout).contains("\"curveflow_version\": \"0.0.9\""));
 }
+
+#[test]
+fn a_run_with_terms_from_outside_its_scene_is_not_made_without_them() {
+    let folder = Folder::empty("from-own");
+    succeeds(&folder.call(&["run", "circle", "-o", "first.h5", "-q", "--set", "accuracy.tolerance=1e-3"]));
+    let mut record = folder.record("first.h5");
+    record.own_terms = vec!["bending".to_owned()];
+    hdf5_file::write(&record, &folder.0.join("first.h5"), true).unwrap();
+    fs::write(folder.0.join("scene.toml"), &record.scene).unwrap();
+    for args in [
+        &["run", "--from", "first.h5", "-o", "second.h5"][..],
+        &["check", "--from", "first.h5"],
+        &["run", "scene.toml", "-o", "first.h5", "--resume"],
+    ] {
+        let output = folder.call(args);
+        let talk = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(7) && talk.contains("(`bending`)"), "{args:?}: {talk}");
+    }
+    let info = folder.call(&["info", "first.h5", "--json"]);
+    assert!(String::from_utf8_lossy(&info.stdout).contains("\"own_terms\""));
+}

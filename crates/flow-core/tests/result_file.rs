@@ -37,6 +37,22 @@ fn what_is_written_is_read_back() {
     round_trip(&Record { seconds: Seconds::default(), ..synthetic::record(2, 16, &[]) }, &path);
 }
 
+#[test]
+fn terms_from_outside_the_scene_are_named() {
+    let folder = Folder::new("own-terms");
+    let path = folder.file("out.h5");
+    let mut record = synthetic::record(2, 16, &["protein"]);
+    record.own_terms = vec!["agents".to_owned()];
+    round_trip(&record, &path);
+    record.own_terms = vec!["another".to_owned()];
+    hdf5_file::write(&record, &path, true).unwrap();
+    let error = hdf5_file::read(&path).unwrap_err();
+    assert!(
+        matches!(&error, StorageError::Damaged { item, .. } if item == "own_terms"),
+        "a name that is none of the terms: {error:?}"
+    );
+}
+
 /// The values of each step are the most of such a file, which holds little besides.
 #[test]
 fn runs_of_many_steps_and_few_frames_are_read_back() {

@@ -83,6 +83,12 @@ impl Record {
         self.core.energy_terms.iter().map(String::as_str).collect()
     }
 
+    /// Names of the energy terms from outside the scene.
+    #[getter]
+    fn own_terms(&self) -> Vec<&str> {
+        self.core.own_terms.iter().map(String::as_str).collect()
+    }
+
     /// Names of the densities.
     #[getter]
     fn densities(&self) -> Vec<&str> {

@@ -69,6 +69,9 @@ fn summary(record: &Record) -> Vec<(String, Value)> {
     if !doubts.is_empty() {
         row("warnings", json!(doubts));
     }
+    if !record.own_terms.is_empty() {
+        row("own_terms", json!(record.own_terms));
+    }
     row("frames", json!(record.frames.len()));
     row("nodes", json!(record.nodes()));
     if let (Some(first), Some(last)) = (record.frames.first(), record.frames.last()) {

@@ -9,7 +9,7 @@ use flow_core::run::{Scene, Simulation};
 
 use super::conduct::{Conduct, Outset};
 use super::resume;
-use super::scene_args::SceneArgs;
+use super::scene_args::{SceneArgs, without_own_terms};
 use super::standing::{Standing, lock};
 use crate::error::CliError;
 
@@ -70,7 +70,9 @@ fn go_on(
         }
         Standing::Over(record) if record.scene != scene.text() => Err(CliError::OtherScene { output }),
         Standing::Stopped(found, _lock) => resume::go_on(&args.conduct, outset, *found, pair),
-        Standing::Over(record) => resume::already_done(&args.conduct, &record, &output),
+        Standing::Over(record) => {
+            resume::already_done(&args.conduct, &without_own_terms(*record, &output)?, &output)
+        }
         Standing::Nothing(_lock) => {
             check_writable(&output, false)?;
             args.conduct.run(outset, simulation(args, scene)?, pair, false)

@@ -26,7 +26,7 @@ impl SceneArgs {
     /// Reads and checks the scene. A file wins over a shipped scene of the same name.
     pub fn read(&self) -> Result<Scene, CliError> {
         let scene = match (&self.from, shipped(self.name())) {
-            (Some(result), _) => of_result(&hdf5_file::read(result)?, &self.set),
+            (Some(result), _) => of_result(&without_own_terms(hdf5_file::read(result)?, result)?, &self.set),
             (None, Some((name, text))) => Scene::parse_with(text, name, &self.set),
             (None, None) => Scene::read_with(self.name(), &self.set),
         };
@@ -47,6 +47,14 @@ impl SceneArgs {
     fn name(&self) -> &Path {
         self.scene.as_deref().or(self.from.as_deref()).unwrap_or(Path::new(""))
     }
+}
+
+/// The record of the file `result`, if its scene alone makes it.
+pub fn without_own_terms(record: Record, result: &Path) -> Result<Record, CliError> {
+    if record.own_terms.is_empty() {
+        return Ok(record);
+    }
+    Err(CliError::OwnTerms { result: result.to_path_buf(), terms: record.own_terms })
 }
 
 /// The scene of a result. Says so if another program, or another machine, made it.

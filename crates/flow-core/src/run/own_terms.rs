@@ -25,6 +25,11 @@ impl OwnTerms {
         self.0.is_some()
     }
 
+    /// Their names.
+    pub fn names(&self, nodes: usize) -> Vec<String> {
+        self.on(nodes).iter().map(|term| term.name().to_owned()).collect()
+    }
+
     /// The terms for `nodes` nodes.
     pub fn on(&self, nodes: usize) -> Vec<Box<dyn EnergyTerm>> {
         self.0.as_ref().map_or_else(Vec::new, |make| make(nodes))

@@ -143,6 +143,8 @@ pub struct Record {
     pub resolved_scene: String,
     /// Names of the energy terms.
     pub energy_terms: Vec<String>,
+    /// Names of those among them that come from outside the scene, which makes no such run alone.
+    pub own_terms: Vec<String>,
     /// Names of the densities.
     pub densities: Vec<String>,
     /// Names of the fields that the scene asks for (`[output] fields`), with underscores: `normal_force`.
@@ -173,6 +175,7 @@ impl Record {
             scene: String::new(),
             resolved_scene: String::new(),
             energy_terms: Vec::new(),
+            own_terms: Vec::new(),
             densities: Vec::new(),
             fields: Vec::new(),
             diagnostics: Vec::new(),
@@ -201,7 +204,8 @@ impl Record {
         self.frames.last().map_or(0, Frame::nodes)
     }
 
-    /// The scene of the run, to run it again: as given, except that points which were read from a file stand in it.
+    /// The scene of the run, to run it again: as given, except that points which were read from a file stand in it. It knows nothing
+    /// of [`Record::own_terms`], and makes another run without them.
     ///
     /// # Errors
     /// [`SceneError`] if the text is not a scene of this version.

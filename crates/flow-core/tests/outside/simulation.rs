@@ -1,6 +1,9 @@
 //! A term from outside in a whole run: the same as the formula of it in the scene, whatever nodes and gauge the run takes.
 
+use std::path::Path;
+
 use flow_core::energies::{EnergyTerm, TermFault};
+use flow_core::output::checkpoint;
 use flow_core::run::{Quiet, ResumeError, Scene, SetupError, Simulation, StopReason};
 
 use crate::parts::Quartic;
@@ -65,7 +68,8 @@ fn a_run_with_own_terms_resumes_with_them_alone() {
     };
     let (memory, frames, steps) = kept(&unbroken);
     let without = Simulation::resume(&scene, memory, frames, steps);
-    assert!(matches!(without, Err(ResumeError::Foreign { .. })), "{:?}", without.err());
+    let missing = ResumeError::TermsMissing { saved: 4, known: 3 }.to_string();
+    assert_eq!(without.err().map(|error| error.to_string()), Some(missing));
     let (memory, frames, steps) = kept(&unbroken);
     let mut resumed =
         Simulation::resume_with_terms(&scene, own, memory, frames, steps).expect("its own memory");
@@ -74,6 +78,21 @@ fn a_run_with_own_terms_resumes_with_them_alone() {
     }
     assert_eq!(unbroken.state(), resumed.state());
     assert_eq!(unbroken.counters().steps, resumed.counters().steps);
+}
+
+#[test]
+fn what_is_left_of_a_run_knows_its_own_terms() {
+    let mut simulation = Simulation::with_terms(&scene(""), own).expect("a start");
+    simulation.run_until(0.05, u64::MAX, &mut Quiet);
+    assert_eq!(simulation.record().own_terms, ["quartic"]);
+    let (bytes, path) = (checkpoint::encode(&simulation), Path::new("own.checkpoint"));
+    let saved = || checkpoint::decode(&bytes, path).expect("a checkpoint");
+    let error = saved().simulation(path).expect_err("the term is missing").to_string();
+    assert!(error.contains("from outside") && error.contains("resume_with_terms"), "{error}");
+    let mut resumed = saved().simulation_with_terms(path, own).expect("its own memory");
+    assert_eq!(resumed.state(), simulation.state());
+    assert_eq!(resumed.into_record().own_terms, ["quartic"]);
+    assert!(Simulation::new(&scene("")).expect("a start").into_record().own_terms.is_empty());
 }
 
 #[test]

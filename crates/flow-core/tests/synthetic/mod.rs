@@ -18,6 +18,7 @@ pub fn record(frames: usize, nodes: usize, densities: &[&str]) -> Record {
         scene: "title = \"Three-fold protein membrane\"  # κ₀(ρ)\n".repeat(2000),
         resolved_scene: "nodes = 512\n".to_owned(),
         energy_terms: vec!["agents".to_owned(), "length".to_owned()],
+        own_terms: Vec::new(),
         densities: densities.iter().map(|&name| name.to_owned()).collect(),
         fields: densities.iter().map(|&name| format!("force of {name}")).collect(),
         diagnostics: densities.iter().map(|&name| format!("distance of {name}")).collect(),

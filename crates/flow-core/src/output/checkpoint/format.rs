@@ -5,8 +5,9 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use crate::energies::EnergyTerm;
 use crate::output::StorageError;
-use crate::run::{Frame, Memory, Record, Scene, Simulation, StepLog};
+use crate::run::{Frame, Memory, Record, ResumeError, Scene, Simulation, StepLog};
 
 pub(super) const MAGIC: &[u8; 8] = b"\x89CFCKPT\n";
 const FOOTER: &[u8; 8] = b"CFCKEND\n";
@@ -121,12 +122,33 @@ impl Checkpoint {
     /// The simulation that was saved; `path` is for messages.
     ///
     /// # Errors
-    /// [`StorageError::ForeignCheckpoint`] if the scene or the state cannot be used.
+    /// [`StorageError::ForeignCheckpoint`] if the scene or the state cannot be used, or the run has terms from outside the scene.
     pub fn simulation(self, path: &Path) -> Result<Simulation, StorageError> {
+        self.resumed(path, Simulation::resume)
+    }
+
+    /// The same of a run that was made by [`Simulation::with_terms`]: `terms` makes the same terms.
+    ///
+    /// # Errors
+    /// [`StorageError::ForeignCheckpoint`] if the scene, the state or these terms cannot be used.
+    pub fn simulation_with_terms(
+        self,
+        path: &Path,
+        terms: impl Fn(usize) -> Vec<Box<dyn EnergyTerm>> + Send + Sync + 'static,
+    ) -> Result<Simulation, StorageError> {
+        self.resumed(path, |scene, memory, frames, steps| {
+            Simulation::resume_with_terms(scene, terms, memory, frames, steps)
+        })
+    }
+
+    fn resumed(
+        self,
+        path: &Path,
+        resume: impl FnOnce(&Scene, Memory, Vec<Frame>, StepLog) -> Result<Simulation, ResumeError>,
+    ) -> Result<Simulation, StorageError> {
         let foreign = |reason: String| StorageError::ForeignCheckpoint { path: path.to_path_buf(), reason };
         let scene = Scene::parse(&self.scene.resolved, "the scene of the checkpoint");
         let scene = scene.map_err(|error| foreign(error.to_string()))?.with_text(self.scene.given);
-        Simulation::resume(&scene, self.memory, self.frames, self.steps)
-            .map_err(|error| foreign(error.to_string()))
+        resume(&scene, self.memory, self.frames, self.steps).map_err(|error| foreign(error.to_string()))
     }
 }

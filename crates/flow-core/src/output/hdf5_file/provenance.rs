@@ -9,6 +9,10 @@ use super::numbers;
 use crate::output::StorageError;
 use crate::run::{Provenance, Record};
 
+/// The attribute that names the terms from outside the scene. It is not in the checksum of the texts, so that versions that do not know
+/// it read such files too; each of its names is one of `energy_terms`, which is.
+pub(super) const OWN_TERMS: &str = "own_terms";
+
 /// Writes all attributes of the file itself.
 pub(super) fn write(file: &File, record: &Record) -> Result<(), StorageError> {
     write_text(file, "Conventions", CONVENTIONS)?;
@@ -18,6 +22,7 @@ pub(super) fn write(file: &File, record: &Record) -> Result<(), StorageError> {
     write_number(file, "text_checksum", &checksum(record))?;
     write_number(file, numbers::NAME, &numbers::checksum(record))?;
     write_names(file, "energy_terms", &record.energy_terms)?;
+    write_names(file, OWN_TERMS, &record.own_terms)?;
     write_names(file, "densities", &record.densities)?;
     write_names(file, "fields", &record.fields)?;
     write_names(file, "diagnostics", &record.diagnostics)?;

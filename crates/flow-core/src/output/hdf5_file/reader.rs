@@ -13,7 +13,7 @@ use super::layout::{
     CAUSES, CONVENTIONS, COUNTERS, FRAME_VALUES, NAMED_FIELDS, NAMED_VALUES, NODAL_FIELDS, STEP_VALUES,
 };
 use super::numbers;
-use super::provenance::{checksum, rejections_name};
+use super::provenance::{OWN_TERMS, checksum, rejections_name};
 use super::seconds;
 use crate::output::signature::begins_with;
 use crate::output::{Operation, StorageError};
@@ -102,6 +102,7 @@ impl Content {
             scene: self.text("scene")?,
             resolved_scene: self.text("resolved_scene")?,
             energy_terms: self.names("energy_terms")?,
+            own_terms: self.names(OWN_TERMS)?,
             densities: self.names("densities")?,
             fields: self.names("fields")?,
             diagnostics: self.names("diagnostics")?,
@@ -114,6 +115,9 @@ impl Content {
         };
         if self.number::<u64>("text_checksum")? != checksum(&record) {
             return Err(("the texts in its attributes".to_owned(), "the checksum differs".into()));
+        }
+        if !record.own_terms.iter().all(|name| record.energy_terms.contains(name)) {
+            return Err((OWN_TERMS.to_owned(), "it names a term that the run does not have".into()));
         }
         record.seconds = seconds::read(&self.file, &record.energy_terms)?;
         record.frames = self.frames(&record)?;

@@ -53,6 +53,7 @@ impl Simulation {
             scene: self.record.scene.clone(),
             resolved_scene: self.record.resolved_scene.clone(),
             energy_terms: self.record.energy_terms.clone(),
+            own_terms: self.record.own_terms.clone(),
             densities: self.record.densities.clone(),
             fields: self.record.fields.clone(),
             diagnostics: self.record.diagnostics.clone(),

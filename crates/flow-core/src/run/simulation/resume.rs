@@ -68,6 +68,17 @@ pub enum ResumeError {
     /// The scene makes no initial state.
     #[error(transparent)]
     Setup(#[from] SetupError),
+    /// Terms from outside the scene are missing.
+    #[error(
+        "the run has {saved} energy terms and its scene makes {known} of them: the others are from outside, and only the program that \
+         has them can go on, by `Simulation::resume_with_terms` or `Checkpoint::simulation_with_terms`"
+    )]
+    TermsMissing {
+        /// Terms of the run.
+        saved: usize,
+        /// Terms here.
+        known: usize,
+    },
     /// The numbers do not belong to the scene.
     #[error(
         "the checkpoint does not fit its scene: {item}; it was written by another version, or is damaged: run the scene \
@@ -169,6 +180,11 @@ impl Simulation {
         let foreign = |item| ResumeError::Foreign { item };
         let clock = Instant::now();
         let mut simulation = Self::with(scene, own)?;
+        let (saved, known) = (frames.first(), simulation.record.energy_terms.len());
+        let saved = saved.map_or(known, |frame| frame.energy_terms.len());
+        if saved > known {
+            return Err(ResumeError::TermsMissing { saved, known });
+        }
         let turning_number = simulation.on.membrane.turning_number();
         simulation.gauges.skip(memory.switches.saturating_sub(simulation.switches)); // one may be at the start
         simulation.adaptation = Adaptation::of(simulation.gauges.scene());

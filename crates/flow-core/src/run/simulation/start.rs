@@ -44,8 +44,8 @@ impl Simulation {
     /// The same with terms of the energy from outside, after those of the scene. `terms` makes them for a number of nodes: at the start,
     /// and again where the run takes other nodes, another gauge, or saves fields of single terms.
     ///
-    /// The record and its files hold their energies by name, but the scene knows nothing of them: who resumes such a run brings them
-    /// again, to [`Simulation::resume_with_terms`].
+    /// The record and its files hold their energies by name and say that they are [`Record::own_terms`], but the scene knows nothing of
+    /// them: who resumes such a run brings them again, to [`Simulation::resume_with_terms`].
     ///
     /// # Errors
     /// As [`Simulation::new`], [`SetupError::TermName`] and [`SetupError::Undeclared`].
@@ -61,6 +61,7 @@ impl Simulation {
         let scene = &scene.clone().checked()?;
         let doubts_gradients = own.exist();
         let mut setup = Setup::of(scene, own)?;
+        let own_terms = setup.initial.own.names(setup.mesh.nodes);
         let (energy, integral_rates) = setup.finish()?;
         if let Some(fault) = setup.membrane.flow().fault() {
             return Err(fault.into());
@@ -106,6 +107,7 @@ impl Simulation {
             scene: scene.text().to_owned(),
             resolved_scene: scene.to_toml(),
             energy_terms: on.membrane.flow().energy_terms().names().map(str::to_owned).collect(),
+            own_terms,
             densities: scene.density.iter().map(|density| density.name.clone()).collect(),
             fields: on.diagnostics.field_names(),
             diagnostics: on.diagnostics.value_names(),
