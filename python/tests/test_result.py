@@ -188,3 +188,12 @@ def test_a_doubtful_result_says_so(membrane: cf.Result):
     few = cf.run(cf.Scene.shipped("three_fold").with_values({"accuracy.nodes": 64, "time.end": 1e-3}))
     assert few.success
     assert any("were not resolved by their nodes" in told for told in few.warnings)
+
+
+def test_a_run_with_terms_from_outside_its_scene_says_so(membrane: cf.Result, tmp_path: Path):
+    path = tmp_path / "own.h5"
+    membrane.save(path)
+    with h5py.File(path, "a") as file:
+        file.attrs["own_terms"] = ["length"]
+    with pytest.warns(UserWarning, match=r"outside its scene \(length\)"):
+        assert cf.open(path).scene == membrane.scene

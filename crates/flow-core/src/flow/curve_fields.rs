@@ -55,8 +55,13 @@ impl CurveFields {
     }
 
     /// Takes the fields from a spectral state vector.
+    ///
+    /// # Panics
+    /// If it is none of the layout.
+    #[track_caller]
     pub fn set(&mut self, state: &[f64], grid: &mut PeriodicGrid, derivative: &Derivative) {
         let layout = SpectralLayout::new(self.layout);
+        layout.check(state);
         self.length = state[layout.length_index()];
         if let (Some(field), Some(graded), Some(interpolation)) =
             (self.layout.metric(), &mut self.graded, derivative.interpolation())
@@ -167,4 +172,14 @@ impl CurveFields {
         let spectra = self.graded.as_ref().map_or(&self.spectra, |graded| &graded.weighted);
         &spectra[self.layout.spectrum(field)]
     }
+}
+
+/// Panics unless states, grid and derivative are those of the same nodes.
+#[track_caller]
+pub(super) fn check_nodes(layout: Layout, grid: &PeriodicGrid, derivative: &Derivative) {
+    let nodes = [layout.nodes(), grid.nodes(), derivative.nodes()];
+    assert!(
+        nodes.iter().all(|count| *count == nodes[0]),
+        "states, grid and derivative have as many nodes, not {nodes:?}"
+    );
 }

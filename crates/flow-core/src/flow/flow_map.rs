@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use bytemuck::{cast_slice, cast_slice_mut};
 
-use super::curve_fields::CurveFields;
+use super::curve_fields::{CurveFields, check_nodes};
 use super::gauge::{CoMoving, Gauge, Graded, MetricRole, ScaledArcLength, Workspace};
 use super::graded_energy::mean_product;
 use crate::geometry::vectors::{
@@ -34,6 +34,9 @@ pub struct FlowMap {
 impl FlowMap {
     /// The flow map for states of `layout` that leaves the nodes where they are on the curve: at their fractions of the arc
     /// length, or as material points if the metric is a field.
+    ///
+    /// # Panics
+    /// As [`FlowMap::in_gauge`].
     #[must_use]
     pub fn new(layout: Layout, grid: &PeriodicGrid, derivative: &Derivative) -> Self {
         let gauge: Arc<dyn Gauge> =
@@ -45,7 +48,7 @@ impl FlowMap {
     ///
     /// # Panics
     /// If the metric is a field of the gauge and none of `layout`, or the other way round, if nodes are graded whose metric
-    /// is uniform, or if states and grid have different numbers of nodes.
+    /// is uniform, or if states, grid and derivative have different numbers of nodes.
     #[must_use]
     pub fn in_gauge(
         gauge: Arc<dyn Gauge>,
@@ -54,7 +57,7 @@ impl FlowMap {
         derivative: &Derivative,
     ) -> Self {
         let role = gauge.metric();
-        assert_eq!(layout.nodes(), grid.nodes(), "states and grid have as many nodes");
+        check_nodes(layout, grid, derivative);
         assert_eq!(layout.metric().is_some(), role == MetricRole::Field, "the metric of {gauge:?}");
         assert!(derivative.grading().is_none() || role != MetricRole::Uniform, "graded nodes in {gauge:?}");
         assert!(derivative.grading().is_some() || role != MetricRole::Field, "no metric for {gauge:?}");
@@ -63,6 +66,12 @@ impl FlowMap {
         let image = vec![Complex64::default(); grid.modes()];
         let stretching = vec![0.0; layout.nodes()];
         Self { work: Workspace::new(layout, grid, derivative), gauge, image, stretching, at_hand: false }
+    }
+
+    /// Shape of the states.
+    #[must_use]
+    pub fn layout(&self) -> Layout {
+        self.work.layout
     }
 
     /// The derivative, for others who work on the same nodes.

@@ -60,15 +60,31 @@ impl SpectralLayout {
         self.nodal.spectrum(field)
     }
 
+    /// Panics unless `state` is as long as such a vector.
+    #[track_caller]
+    pub(crate) fn check(&self, state: &[f64]) {
+        assert_eq!(state.len(), self.len(), "length of a spectral vector; a nodal one is shorter");
+    }
+
     /// The spectra of all fields, one after the other.
+    ///
+    /// # Panics
+    /// If `state` is no vector of this layout, but a nodal one, for example.
     #[must_use]
+    #[track_caller]
     pub fn spectra<'a>(&self, state: &'a [f64]) -> &'a [Complex64] {
+        self.check(state);
         bytemuck::cast_slice(&state[..self.length_index()])
     }
 
     /// The spectra of all fields, to be changed.
+    ///
+    /// # Panics
+    /// As [`SpectralLayout::spectra`].
     #[must_use]
+    #[track_caller]
     pub fn spectra_mut<'a>(&self, state: &'a mut [f64]) -> &'a mut [Complex64] {
+        self.check(state);
         bytemuck::cast_slice_mut(&mut state[..self.length_index()])
     }
 
@@ -87,7 +103,12 @@ impl SpectralLayout {
     }
 
     /// Transforms a nodal state vector.
+    ///
+    /// # Panics
+    /// If `nodal` has not the length of the nodal layout, `state` that of this one, or `grid` other nodes.
+    #[track_caller]
     pub fn encode(&self, grid: &mut PeriodicGrid, nodal: &[f64], state: &mut [f64]) {
+        self.nodal.check(nodal);
         for (field, spectrum) in self.spectra_mut(state).chunks_exact_mut(self.modes).enumerate() {
             grid.transform(&nodal[self.nodal.field(field)], spectrum);
         }
@@ -95,6 +116,10 @@ impl SpectralLayout {
     }
 
     /// Transforms back to a nodal state vector; `scratch` holds one spectrum.
+    ///
+    /// # Panics
+    /// As [`SpectralLayout::encode`].
+    #[track_caller]
     pub fn decode(
         &self,
         grid: &mut PeriodicGrid,
@@ -102,6 +127,7 @@ impl SpectralLayout {
         scratch: &mut [Complex64],
         nodal: &mut [f64],
     ) {
+        self.nodal.check(nodal);
         for (field, spectrum) in self.spectra(state).chunks_exact(self.modes).enumerate() {
             scratch.copy_from_slice(spectrum);
             grid.synthesise(scratch, &mut nodal[self.nodal.field(field)]);

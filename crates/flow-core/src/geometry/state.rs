@@ -94,6 +94,12 @@ impl Layout {
         field * self.nodes..(field + 1) * self.nodes
     }
 
+    /// Panics unless `state` is as long as such a vector.
+    #[track_caller]
+    pub(super) fn check(&self, state: &[f64]) {
+        assert_eq!(state.len(), self.len(), "length of a nodal vector; a spectral one is longer");
+    }
+
     /// State vector of pointwise `curvature` and `density` on a curve of the given length with uniform metric.
     ///
     /// # Panics

@@ -102,6 +102,7 @@ impl DerivativeFamily {
 #[derive(Clone, Debug)]
 pub struct Derivative {
     family: DerivativeFamily,
+    nodes: usize,
     to_flux: Vec<Complex64>,
     inverse_to_flux: Vec<Complex64>,
     interpolation: Option<Vec<Complex64>>,
@@ -175,7 +176,15 @@ impl Derivative {
                 _ => to_flux[mode].norm_sqr(),
             })
             .collect();
-        Self { family, to_flux, inverse_to_flux, interpolation, minus_laplacian, grading }
+        Self {
+            family,
+            nodes: grid.nodes(),
+            to_flux,
+            inverse_to_flux,
+            interpolation,
+            minus_laplacian,
+            grading,
+        }
     }
 
     fn flux_symbol(family: DerivativeFamily, midpoints: bool, grid: &PeriodicGrid, mode: usize) -> Complex64 {
@@ -210,6 +219,12 @@ impl Derivative {
     #[must_use]
     pub fn family(&self) -> DerivativeFamily {
         self.family
+    }
+
+    /// Number of nodes.
+    #[must_use]
+    pub fn nodes(&self) -> usize {
+        self.nodes
     }
 
     /// The grading of the nodes; none if they are uniform.

@@ -4,12 +4,13 @@ use std::f64::consts::TAU;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
-use flow_core::energies::{Adhesion, Bending, CutOff, Fields, Local, Packing};
+use flow_core::energies::{Adhesion, Bending, CutOff, EnergyTerm, Fields, Local, Packing};
 use flow_core::expression::Expression;
 use flow_core::flow::{EnergySum, FlowMap, GradientFlow, Identity};
 use flow_core::geometry::shapes::{Shape, ShapeError};
 use flow_core::geometry::{
-    CellList, Closure, Complex64, Grading, Layout, PeriodicGrid, ScatteredPoints, follow_scales,
+    CellList, Closure, Complex64, Grading, Layout, PeriodicGrid, ScatteredPoints, SpectralLayout,
+    follow_scales,
 };
 use flow_core::operators::{CyclicBanded, Derivative, DerivativeFamily};
 use flow_core::run::scene::Formula;
@@ -119,19 +120,59 @@ fn spectra_of_other_grids() {
 fn grids_that_do_not_fit() {
     let (grid, family) = (PeriodicGrid::new(32), DerivativeFamily::Fourier);
     let derivative = Derivative::new(family, &grid);
+    let bending = || -> Vec<Box<dyn EnergyTerm>> { vec![Box::new(Bending::new(1.0))] };
     panics("as many nodes", || _ = FlowMap::new(Layout::new(64, 0), &grid, &derivative));
+    // As many modes.
+    let other = Derivative::new(family, &PeriodicGrid::new(33));
+    panics("[32, 32, 33]", || _ = FlowMap::new(Layout::new(32, 0), &grid, &other));
+    panics("[32, 32, 33]", || _ = EnergySum::new(bending(), Layout::new(32, 0), &grid, &other));
+    let map = FlowMap::new(Layout::new(32, 1), &grid, &derivative);
+    let energy = EnergySum::new(bending(), Layout::new(32, 1), &grid, &derivative);
+    panics("those of the flow", || {
+        _ = GradientFlow::new(map, energy, Layout::new(32, 0), Box::new(Identity), Vec::new());
+    });
     let grading = Some(Arc::new(Grading::uniform(16)));
     panics("the 32 of the grid", || _ = Derivative::graded(family, &grid, grading.clone()));
     panics("the 32 of the grid", || _ = Derivative::staggered(family, &grid, grading.clone()));
 }
 
-#[test]
-fn products_without_a_linearisation() {
-    let (layout, grid) = (Layout::new(32, 0), PeriodicGrid::new(32));
+fn bending_flow(layout: Layout) -> GradientFlow {
+    let grid = PeriodicGrid::new(layout.nodes());
     let derivative = Derivative::new(DerivativeFamily::Fourier, &grid);
     let energy = EnergySum::new(vec![Box::new(Bending::new(1.0))], layout, &grid, &derivative);
     let map = FlowMap::new(layout, &grid, &derivative);
-    let mut flow = GradientFlow::new(map, energy, layout, Box::new(Identity), Vec::new());
+    GradientFlow::new(map, energy, layout, Box::new(Identity), Vec::new())
+}
+
+#[test]
+fn nodal_vectors_for_spectral_ones_and_the_other_way_round() {
+    for nodes in [32, 33] {
+        let layout = Layout::new(nodes, 0);
+        let (mut flow, nodal) = (bending_flow(layout), layout.assemble(&vec![1.0; nodes], &[], TAU));
+        let spectral_layout = SpectralLayout::new(layout);
+        let mut spectral = vec![0.0; spectral_layout.len()];
+        spectral_layout.encode(flow.grid_mut(), &nodal, &mut spectral);
+        let mut out = spectral.clone();
+        panics("nodal vector", || _ = flow.energy_at(&spectral));
+        panics("nodal vector", || _ = flow.check_derivatives(&spectral));
+        panics("nodal vector", || flow.linearise(&spectral));
+        panics("nodal vector", || flow.decode(&spectral, &mut out));
+        panics("spectral vector", || _ = flow.spectral_gradient(&nodal));
+        panics("spectral vector", || _ = flow.spectral_rate(&nodal, &mut out));
+        panics("spectral vector", || flow.spectral_linearise(&nodal));
+        out.push(0.0);
+        panics("spectral vector", || _ = flow.spectral_rate(&spectral, &mut out));
+        flow.spectral_linearise(&spectral);
+        panics("spectral vector", || flow.spectral_hessian_product(&nodal));
+        panics("spectral vector", || flow.spectral_mobility(&nodal, &mut spectral.clone()));
+        panics("nodal vector", || flow.hessian_product(&spectral, &mut nodal.clone()));
+    }
+}
+
+#[test]
+fn products_without_a_linearisation() {
+    let layout = Layout::new(32, 0);
+    let mut flow = bending_flow(layout);
     let (state, mut out) = (layout.assemble(&[1.0; 32], &[], TAU), vec![0.0; layout.len()]);
     panics("there is none", || flow.jacobian_product(&state, &mut out));
     panics("there is none", || flow.hessian_product(&state, &mut out));

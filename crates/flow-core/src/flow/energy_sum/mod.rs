@@ -6,11 +6,12 @@
 mod alone;
 mod density;
 mod not_finite;
+mod parts;
 mod positions;
 mod stiffness;
 mod undeclared;
 
-use super::curve_fields::CurveFields;
+use super::curve_fields::{CurveFields, check_nodes};
 use super::graded_energy::{GradedEnergy, add_spectrum, mean_product};
 use super::intrinsic_gradient::IntrinsicGradient;
 use super::moving_metric_energy::MovingMetricEnergy;
@@ -64,6 +65,9 @@ pub struct EnergySum {
 
 impl EnergySum {
     /// The sum of `terms` on states of `layout`.
+    ///
+    /// # Panics
+    /// If states, grid and derivative have different numbers of nodes.
     #[must_use]
     pub fn new(
         terms: Vec<Box<dyn EnergyTerm>>,
@@ -71,6 +75,7 @@ impl EnergySum {
         grid: &PeriodicGrid,
         derivative: &Derivative,
     ) -> Self {
+        check_nodes(layout, grid, derivative);
         let (nodes, fields) = (layout.nodes(), layout.fields());
         let stiffness =
             (0..fields).map(|field| terms.iter().map(|term| term.stiffness(field)).sum()).collect();
@@ -109,23 +114,6 @@ impl EnergySum {
             product: vec![0.0; nodes],
             density_rates: vec![0.0; if derivative.grading().is_some() { nodes * fields } else { 0 }],
         }
-    }
-
-    /// Names of the terms.
-    pub fn names(&self) -> impl Iterator<Item = &'static str> + '_ {
-        self.terms.iter().map(|term| term.name())
-    }
-
-    /// Bytes that the terms keep for second derivatives beside a few numbers for each node.
-    #[must_use]
-    pub fn kept_bytes(&self) -> f64 {
-        self.terms.iter().map(|term| term.kept_bytes()).sum()
-    }
-
-    /// Pointwise second derivatives at the state evaluated last with [`EnergySum::linearise`].
-    #[must_use]
-    pub fn jet(&self) -> &Jet {
-        &self.jet
     }
 
     /// δφ of all fields at the nodes under the motion of the last [`EnergySum::hessian_product`], that of the curvature first.
@@ -220,9 +208,13 @@ impl EnergySum {
 
     /// Second derivative times the motion `v` of the spectral state vector, at the state of the last
     /// [`EnergySum::linearise`], whose fields are `at`.
+    ///
+    /// # Panics
+    /// If `v` is no spectral vector of the layout.
     pub fn hessian_product(&mut self, at: &CurveFields, v: &[f64], out: &mut IntrinsicGradient) {
         let (fields, length) = (self.layout.fields(), at.length());
         let (layout, of_length) = (SpectralLayout::new(self.layout), self.of_length(length));
+        layout.check(v);
         if let Some(moving) = &mut self.moving {
             moving.hessian_product(&self.jet, of_length, at, layout.spectra(v), out);
             if let Some(shape) = &mut self.shape {

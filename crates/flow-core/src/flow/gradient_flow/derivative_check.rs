@@ -69,7 +69,7 @@ impl GradientFlow {
     ///
     /// # Panics
     /// If a term adds a part that it does not declare (see [`UndeclaredPart`](crate::flow::UndeclaredPart)): it would be left out of the
-    /// flow, and of the comparison.
+    /// flow, and of the comparison. If `y` is no nodal vector of the layout.
     /// # Source
     /// `THEORY.md`, eqs. (D3)–(D10): the derivatives are those of the discrete energy.
     pub fn check_derivatives(&mut self, y: &[f64]) -> Vec<DerivativeErrors> {

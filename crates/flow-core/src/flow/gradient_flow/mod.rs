@@ -82,7 +82,7 @@ impl GradientFlow {
     /// The flow of `energy` under the mobilities, one density mobility per density.
     ///
     /// # Panics
-    /// If there are more or fewer of them.
+    /// If there are more or fewer of them, or `map` or `energy` is one of other states.
     #[must_use]
     pub fn new(
         mut map: FlowMap,
@@ -92,6 +92,11 @@ impl GradientFlow {
         density_mobilities: Vec<Box<dyn DensityMobility>>,
     ) -> Self {
         assert_eq!(density_mobilities.len(), layout.densities(), "one mobility per density");
+        assert_eq!(
+            [map.layout(), energy.layout()],
+            [layout; 2],
+            "the states of map and energy are those of the flow"
+        );
         let (grid, derivative) = map.grid_and_derivative();
         let fields = CurveFields::new(layout, grid, derivative);
         let mobility = normal_mobility.boxed_clone();
@@ -118,6 +123,9 @@ impl GradientFlow {
     }
 
     /// Rate of `state` into `rate`, per time, both spectral ([`crate::geometry::SpectralLayout`]).
+    ///
+    /// # Panics
+    /// If `state` or `rate` is no spectral vector of the layout.
     pub fn spectral_rate(&mut self, state: &[f64], rate: &mut [f64]) -> Rate {
         let evaluated = self.spectral_dissipation(state);
         self.descent.write_rates(&self.current.fields, rate);
@@ -125,6 +133,9 @@ impl GradientFlow {
     }
 
     /// Energy and dissipation of the spectral `state`; cheaper than a rate.
+    ///
+    /// # Panics
+    /// If `state` is no spectral vector of the layout.
     pub fn spectral_dissipation(&mut self, state: &[f64]) -> Rate {
         let energy = self.spectral_gradient(state);
         let Self { descent, current, .. } = self;
@@ -140,12 +151,18 @@ impl GradientFlow {
     }
 
     /// Takes the fields of the spectral `state`, without evaluating anything.
+    ///
+    /// # Panics
+    /// If `state` is no spectral vector of the layout.
     pub fn set_current(&mut self, state: &[f64]) {
         let (grid, derivative) = self.descent.map.grid_and_derivative();
         self.current.fields.set(state, grid, derivative);
     }
 
     /// Energy of the spectral `state`; its gradient is then at [`GradientFlow::gradient`].
+    ///
+    /// # Panics
+    /// If `state` is no spectral vector of the layout.
     pub fn spectral_gradient(&mut self, state: &[f64]) -> f64 {
         self.set_current(state);
         self.energy.gradient(&self.current.fields, &mut self.descent.gradient)
@@ -187,6 +204,9 @@ impl GradientFlow {
     }
 
     /// Freezes the implicit operator −𝓚 Hess `𝓕_h` at the spectral `state`.
+    ///
+    /// # Panics
+    /// If `state` is no spectral vector of the layout.
     pub fn spectral_linearise(&mut self, state: &[f64]) {
         let (grid, derivative) = self.descent.map.grid_and_derivative();
         self.frozen.fields.set(state, grid, derivative);
@@ -211,7 +231,7 @@ impl GradientFlow {
     /// Product of the frozen Hess `𝓕_h` with the spectral `v`, at [`GradientFlow::gradient`].
     ///
     /// # Panics
-    /// Before [`GradientFlow::spectral_linearise`].
+    /// Before [`GradientFlow::spectral_linearise`], or if a vector is no spectral one of the layout.
     pub fn spectral_hessian_product(&mut self, v: &[f64]) {
         assert!(self.linearised, "products are those of a linearisation, and there is none");
         self.energy.hessian_product(&self.frozen.fields, v, &mut self.descent.gradient);
@@ -220,7 +240,7 @@ impl GradientFlow {
     /// 𝓚 applied to the spectral dual vector `dual`, at the frozen state.
     ///
     /// # Panics
-    /// Before [`GradientFlow::spectral_linearise`].
+    /// Before [`GradientFlow::spectral_linearise`], or if a vector is no spectral one of the layout.
     pub fn spectral_mobility(&mut self, dual: &[f64], out: &mut [f64]) {
         assert!(self.linearised, "𝓚 is that at a linearisation, and there is none");
         let layout = self.spectral_layout();
