@@ -71,9 +71,11 @@ impl LengthJet {
 /// # Derivatives must be exact
 ///
 /// They are those of the discrete energy, to rounding. The flow takes its force from the first derivatives, and every step is checked by
-/// the balance of the energy that is lost and the dissipation: with a gradient that is off by 1 % this balance does not close, steps
-/// shrink until what is missing is within the tolerance, and a run creeps until it ends with
-/// [`IntegrationError::OpenBalance`](crate::integrator::IntegrationError::OpenBalance). Second derivatives do not enter results, but the
+/// the balance of the energy that is lost and the dissipation: with a gradient that is off by 1 % this balance does not close, and steps
+/// shrink until what is missing of each is within the tolerance. A run creeps then, the more the smaller the tolerance. If it is out of
+/// steps before its end, it fails with [`IntegrationError::OpenBalance`](crate::integrator::IntegrationError::OpenBalance); if it gets
+/// there, all that was missing together is in the [`energy_balance`](crate::run::Frame::energy_balance) of its frames, and
+/// [`warnings`](crate::run::warnings) tells. Second derivatives do not enter results, but the
 /// implicit steps are solved with them: where they are missing or wrong the solves fail or take many iterations, and the steps become as
 /// short as those of an explicit method. [`GradientFlow::check_derivatives`](crate::flow::GradientFlow::check_derivatives) compares both
 /// with differences, term by term: a test with it belongs to every term.

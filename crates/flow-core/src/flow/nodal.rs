@@ -109,7 +109,7 @@ impl GradientFlow {
         SpectralLayout::new(self.layout())
     }
 
-    fn encoded(&mut self, nodal: &[f64]) -> Vec<f64> {
+    pub(super) fn encoded(&mut self, nodal: &[f64]) -> Vec<f64> {
         let layout = self.spectral_layout();
         let mut state = vec![0.0; layout.len()];
         layout.encode(self.grid_mut(), nodal, &mut state);

@@ -9,8 +9,9 @@ use super::linear_part::LinearPart;
 ///
 /// The step loop trusts what [`Problem::finish`] says of the energy E. It refuses steps in which E rises by more than its rounding, and
 /// steps after which ΔE + ∫D dt, D the dissipation, is not 0 to [`energy_tolerance`](crate::integrator::AdaptiveOptions::energy_tolerance): D must be −dE/dt along f exactly,
-/// that is −∇E·f. Where it is not, steps shrink until the balance is within the tolerance, and the loop ends with
-/// [`IntegrationError::OpenBalance`](crate::integrator::IntegrationError::OpenBalance) once it runs out of steps. A problem without an energy tells a constant one and the dissipation 0:
+/// that is −∇E·f. Where it is not, steps shrink until what each adds to the balance is within the tolerance. The loop ends with
+/// [`IntegrationError::OpenBalance`](crate::integrator::IntegrationError::OpenBalance) if it runs out of steps that way; if it comes to
+/// its end, it is the sum over all steps that is far out of balance. A problem without an energy tells a constant one and the dissipation 0:
 /// then its steps are controlled by their local errors alone.
 pub trait Problem {
     /// Length of the state.
@@ -63,6 +64,12 @@ pub trait Problem {
     }
     /// Derivative of the energy along `direction` at the candidate finished last; none where it is not at hand.
     fn energy_slope(&self, _direction: &[f64]) -> Option<f64> {
+        None
+    }
+    /// Whether the dissipation is −dE/dt along f, by another way than the balance of steps near `y`; none where there is no other way.
+    /// Asked before [`IntegrationError::OpenBalance`](crate::integrator::IntegrationError::OpenBalance) blames it, for a flow that is
+    /// ill-posed has no balance either. Whatever was evaluated or linearised last is lost.
+    fn is_gradient_exact(&mut self, _y: &[f64]) -> Option<bool> {
         None
     }
     /// f(y) at the candidate `y` finished last, into `rate`.

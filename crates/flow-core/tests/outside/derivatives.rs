@@ -1,8 +1,9 @@
 //! What becomes of a term whose derivatives are not those of its energy, or who does not say what it has.
 
-use flow_core::energies::{EnergyTerm, Fields, Jet, Length, Order, ShapeFields};
+use flow_core::energies::{Bending, EnergyTerm, Fields, Jet, Length, Order, ShapeFields};
 use flow_core::flow::{DerivativeErrors, LinearSolver};
 use flow_core::integrator::IntegrationError;
+use flow_core::run::{Quiet, Scene, Simulation, StopReason, warnings};
 
 use crate::uniform::{Terms, run, start};
 
@@ -124,5 +125,68 @@ fn a_right_gradient_is_not_named() {
                 "{most}, {tolerance:.0e}: {error:?}"
             );
         }
+    }
+}
+
+/// −(c/4)∫κ⁴ dσ, with its exact derivatives: with bending, short waves grow where 3cκ² is more than the rigidity.
+#[derive(Debug)]
+struct Concave(f64);
+
+impl EnergyTerm for Concave {
+    fn name(&self) -> &'static str {
+        "concave"
+    }
+
+    fn has_density(&self) -> bool {
+        true
+    }
+
+    fn add_density(&mut self, fields: Fields<'_>, jet: &mut Jet) {
+        let order = jet.order();
+        for (i, kappa) in fields.get(0).iter().enumerate() {
+            jet.value_mut()[i] -= 0.25 * self.0 * kappa.powi(4);
+            jet.first_mut(0)[i] -= self.0 * kappa.powi(3);
+            if order >= Order::Hessian {
+                jet.second_mut(0, 0)[i] -= 3.0 * self.0 * kappa * kappa;
+            }
+        }
+    }
+}
+
+/// Its steps shrink as those of a wrong one do, and near the end no difference along the flow agrees with the gradient.
+#[test]
+fn a_right_gradient_of_an_ill_posed_flow_is_not_named() {
+    for strength in [0.2, 0.5, 1.0, 5.0] {
+        for nodes in [64, 96, 128] {
+            let penalty = Length::Penalty { penalty: 10.0, target: 7.5 };
+            let terms: Terms =
+                vec![Box::new(penalty), Box::new(Bending::new(1.0)), Box::new(Concave(strength))];
+            let end = run(start(terms, [1.5, 1.0], nodes), LinearSolver::Auto, 1e-5, 0.2, 3000);
+            let Some(error) = end.error else { panic!("{strength}, {nodes}: no end") };
+            let is_named = matches!(error, IntegrationError::OpenBalance { .. });
+            assert!(!is_named, "{strength}, {nodes} nodes: {error}");
+        }
+    }
+}
+
+/// Where steps are long enough, a run with a wrong one gets to its end.
+#[test]
+fn a_wrong_gradient_is_in_the_warnings_of_a_run_that_ends() {
+    let text = "
+        curve = { shape = 'ellipse', semi_axes = [1.4, 0.9] }
+        energy.length = { penalty = 5.0, target_ratio = 1.0 }
+        time = { end = 0.2, stop_at_equilibrium = false }
+        accuracy = { tolerance = 1e-2, nodes = 96 }
+    ";
+    let scene = Scene::parse(text, "a test").expect("a scene");
+    for (factor, doubted) in [(1.0, false), (1.2, true)] {
+        let wrong = move |_| -> Terms { vec![Box::new(Quartic { first: factor, second: factor })] };
+        let mut simulation = Simulation::with_terms(&scene, wrong).expect("a start");
+        simulation.run_until(f64::INFINITY, 2000, &mut Quiet);
+        let record = simulation.into_record();
+        assert_eq!(record.stop_reason, StopReason::EndTime, "{factor}");
+        let told = warnings(&record).join(" ");
+        let names = told.contains("`quartic`") && told.contains("check_derivatives");
+        assert_eq!((names, told.is_empty()), (doubted, !doubted), "{factor}: {told}");
     }
 }

@@ -73,6 +73,23 @@ impl GradientFlow {
     /// # Source
     /// `THEORY.md`, eqs. (D3)–(D10): the derivatives are those of the discrete energy.
     pub fn check_derivatives(&mut self, y: &[f64]) -> Vec<DerivativeErrors> {
+        let state = self.encoded(y);
+        self.set_current(&state);
+        if let Some(part) = self.undeclared_part() {
+            panic!("{part}");
+        }
+        self.derivative_errors(y)
+    }
+
+    /// Whether the gradient of a term is not the derivative of its energy at the spectral `state`; no where differences do not tell.
+    pub fn has_wrong_gradient(&mut self, state: &[f64]) -> bool {
+        let mut y = vec![0.0; self.layout().len()];
+        self.decode(state, &mut y);
+        self.derivative_errors(&y).iter().any(|errors| errors.gradient > DerivativeErrors::LARGEST)
+    }
+
+    fn derivative_errors(&mut self, y: &[f64]) -> Vec<DerivativeErrors> {
+        self.linearised = false;
         let Descent { layout, map, gradient: out, .. } = &mut self.descent;
         let (layout, at) = (*layout, &mut self.current.fields);
         let (grid, derivative) = map.grid_and_derivative();
@@ -81,10 +98,6 @@ impl GradientFlow {
         let waves = probe.waves(y);
         probe.usual = waves.iter().enumerate().map(|(field, wave)| probe.motion_sizes(wave)[field]).collect();
         probe.usual.resize(layout.state_fields() + 1, AMPLITUDE * y[layout.length_index()]);
-        probe.at.set(&state, probe.grid, probe.derivative);
-        if let Some(part) = self.energy.undeclared(probe.at) {
-            panic!("{part}");
-        }
         let mut errors = Vec::new();
         self.energy.each_alone(|term| errors.push(probe.errors(term, &state, &waves)));
         errors

@@ -122,15 +122,15 @@ impl<S: Stepper> Adaptive<S> {
         if !self.options.doubts_gradients {
             return error;
         }
-        let (time, step) = (self.stepper.time(), self.stepper.step_size());
-        match share_lost(problem, time, self.stepper.state(), step) {
-            Some(share) => IntegrationError::OpenBalance {
+        let (time, step, state) = (self.stepper.time(), self.stepper.step_size(), self.stepper.state());
+        match share_lost(problem, time, state, step) {
+            Some(share) if problem.is_gradient_exact(state) != Some(true) => IntegrationError::OpenBalance {
                 time,
                 steps: self.counters.steps,
                 step,
                 percent: 100.0 * share,
             },
-            None => error,
+            _ => error,
         }
     }
 

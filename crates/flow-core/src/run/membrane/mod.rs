@@ -268,6 +268,10 @@ impl Problem for Membrane {
         Some(self.flow.energy_slope(direction))
     }
 
+    fn is_gradient_exact(&mut self, y: &[f64]) -> Option<bool> {
+        Some(!self.flow.has_wrong_gradient(y))
+    }
+
     fn rests_with_its_energy(&self) -> bool {
         true // a gradient flow
     }
