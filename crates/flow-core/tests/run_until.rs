@@ -23,6 +23,12 @@ fn a_time_too_near_for_a_step_counts_as_reached() {
     assert_ne!(simulation.stop_reason().map(StopReason::name), Some("failed"), "{:?}", simulation.failure());
 }
 
+#[test]
+#[should_panic(expected = "that is no time")]
+fn a_run_until_nan_is_refused() {
+    circle().run_until(f64::NAN, u64::MAX, &mut Quiet);
+}
+
 /// Sums of times end a unit in the last place away: 0.1·3 is not 0.3.
 #[test]
 fn a_time_within_the_rounding_of_the_present_one_counts_as_reached() {

@@ -72,7 +72,9 @@ impl From<GradingError> for NodalError {
 impl From<HelmholtzError> for NodalError {
     fn from(error: HelmholtzError) -> Self {
         match error {
-            HelmholtzError::NoCurvature { value } => Self::NoCurvature { value },
+            HelmholtzError::NoCurvature { value } | HelmholtzError::NotFinite { value } => {
+                Self::NoCurvature { value }
+            }
             HelmholtzError::NoLength { length } => Self::NoLength { length },
             HelmholtzError::Singular(error) => Self::Singular(error),
         }

@@ -20,7 +20,10 @@ pub enum IntegrationError {
     )]
     StopTooNear { time: f64, step: f64, least: f64 },
     /// The allowed number of steps is used up.
-    #[error("time.max_steps = {steps} is used up at t = {time:.6e}; raise it, or drop the key")]
+    #[error(
+        "the number of steps allowed, {steps}, is used up at t = {time:.6e}; raise time.max_steps of the scene or drop it \
+         (AdaptiveOptions::most_steps, for a problem of your own)"
+    )]
     TooManySteps { time: f64, steps: u64 },
     /// The energy does not lose what is dissipated, however short the step.
     #[error(

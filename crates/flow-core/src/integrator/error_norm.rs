@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::Problem;
 use crate::geometry::vectors::dot;
 
-/// ‖e‖² = Σ |`e_b|²/|y_b|²` over the blocks b.
+/// ‖e‖² = Σ |`e_b|²/|y_b|²` over the blocks b of the state y: errors relative to each. See `THEORY.md`, eq. (I1).
 #[derive(Clone, Debug)]
 pub struct ErrorNorm {
     blocks: Vec<Range<usize>>,
@@ -41,4 +41,15 @@ impl ErrorNorm {
     pub fn norm(&self, e: &[f64]) -> f64 {
         self.product(e, e).sqrt()
     }
+}
+
+/// Panics unless `y` is a state of `problem` and `tolerance` one that errors can meet: no step would be short enough otherwise, and
+/// the message would be about the steps.
+#[track_caller]
+pub(super) fn check_start(problem: &dyn Problem, y: &[f64], tolerance: f64) {
+    assert_eq!(y.len(), problem.size(), "length of the state at the start");
+    assert!(
+        tolerance > 0.0 && tolerance.is_finite(),
+        "a tolerance of {tolerance:?}: it must be positive and finite"
+    );
 }

@@ -1,11 +1,13 @@
 //! The method of a run: exponential while that pays, implicit from then on.
 
 use super::bdf::Bdf;
+use super::error_norm::check_start;
 use super::exponential::{self, Exponential};
 use super::memory::Memory;
 use super::{Counters, INTEGRALS, Integrals, LinearPart, Problem, Rejection, Stepper};
 
-/// Either of the two multistep methods. Both hold past states, so that the change from one to the other costs nothing.
+/// The method of a run: [`Exponential`] while the problem has a [`LinearPart`] and what it leaves is not stiff, [`Bdf`] from then on.
+/// Both hold past states, so that the change from one to the other costs nothing.
 #[derive(Clone, Debug)]
 pub struct Multistep {
     method: Method,
@@ -21,6 +23,9 @@ enum Method {
 impl Multistep {
     /// Starts at `y` and the time of `integrals`, which go on from their values, with local errors below `tolerance` in the
     /// relative norm; with the exponential method if `problem` has a linear part.
+    ///
+    /// # Panics
+    /// If `y` has not the size of the problem, or `tolerance` is not positive and finite.
     pub fn starting(
         problem: &mut dyn Problem,
         y: &[f64],
@@ -28,6 +33,7 @@ impl Multistep {
         tolerance: f64,
         counters: &mut Counters,
     ) -> Self {
+        check_start(problem, y, tolerance);
         let mut part = LinearPart::default();
         if !problem.linear_part(y, &mut part) {
             let bdf = Bdf::starting(problem, y, integrals, tolerance, counters);

@@ -23,6 +23,9 @@ pub enum HelmholtzError {
          tolerance, or more nodes"
     )]
     NoCurvature { value: f64 },
+    /// A curvature, or a square of one, is infinite or not a number.
+    #[error("|Γ|∫κ² dσ = {value:.3e}: the curvature, or its square, is not finite")]
+    NotFinite { value: f64 },
     /// No curve has such a length.
     #[error("the length of the curve is {length:?}: it must be positive and finite")]
     NoLength { length: f64 },
@@ -205,8 +208,11 @@ pub(super) fn check_length(length: f64) -> Result<(), HelmholtzError> {
 
 /// Refuses what is not |Γ|∫κ² dσ of a closed curve.
 pub(super) fn check_curvature(value: f64) -> Result<(), HelmholtzError> {
-    let is_one = value >= LEAST_CURVATURE && value.is_finite();
-    if is_one { Ok(()) } else { Err(HelmholtzError::NoCurvature { value }) }
+    match value {
+        _ if !value.is_finite() => Err(HelmholtzError::NotFinite { value }),
+        _ if value < LEAST_CURVATURE => Err(HelmholtzError::NoCurvature { value }),
+        _ => Ok(()),
+    }
 }
 
 /// Panics unless H is `factorised` and both sides have one value per node.

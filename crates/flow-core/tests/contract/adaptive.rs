@@ -4,6 +4,7 @@ use flow_core::integrator::{
     Adaptive, AdaptiveOptions, Bdf, Counters, INTEGRALS, Integrals, Multistep, Stepper,
 };
 
+use crate::refusals::panics;
 use crate::scalar::{Law, Scalar};
 
 /// What a candidate says beside its state: energy and rates of the integrals.
@@ -116,4 +117,34 @@ fn what_settles_for_the_worse_is_taken_back() {
     }
     let error = integration.stepper().state()[0] / (start * (-1.0_f64).exp()) - 1.0;
     assert!(problem.law().settled > 0 && error.abs() < 10.0 * tolerance, "{error:.1e}");
+}
+
+#[test]
+fn a_start_that_no_step_could_serve_is_refused() {
+    let start = |y: &[f64], tolerance: f64| {
+        let (mut problem, y) = (Scalar::new(Rough::default()), y.to_vec());
+        let rates = word(2.0).1;
+        panics("must be positive and finite", || {
+            Bdf::new(&mut problem, &y, rates, tolerance, &mut Counters::default());
+        });
+    };
+    for tolerance in [f64::NAN, f64::INFINITY, 0.0, -1e-4] {
+        start(&[2.0], tolerance);
+    }
+    let mut problem = Scalar::new(Rough::default());
+    let integrals = || Integrals::new(0.0, [0.0; INTEGRALS], word(2.0).1);
+    panics("length of the state", || {
+        _ = Multistep::starting(&mut problem, &[2.0; 2], integrals(), 1e-4, &mut Counters::default());
+    });
+    let options =
+        AdaptiveOptions { end: 1.0, most_steps: 1, energy_tolerance: 1e-6, doubts_gradients: false };
+    for (message, options) in [
+        ("energy tolerance", AdaptiveOptions { energy_tolerance: f64::NAN, ..options }),
+        ("energy tolerance", AdaptiveOptions { energy_tolerance: -1.0, ..options }),
+        ("end of an integration", AdaptiveOptions { end: f64::NAN, ..options }),
+    ] {
+        let mut counters = Counters::default();
+        let stepper = Bdf::new(&mut problem, &[2.0], word(2.0).1, 1e-4, &mut counters);
+        panics(message, || _ = Adaptive::new(stepper, options, 2.0, counters));
+    }
 }

@@ -51,8 +51,14 @@ const LEAST_STEP: f64 = LEAST_STEP_ULPS * f64::MIN_POSITIVE;
 
 impl<S: Stepper> Adaptive<S> {
     /// A loop from the state of `stepper`, whose energy is `energy`.
+    ///
+    /// # Panics
+    /// If the end is NaN, or the energy tolerance NaN or negative.
     #[must_use]
     pub fn new(stepper: S, options: AdaptiveOptions, energy: f64, counters: Counters) -> Self {
+        assert!(!options.end.is_nan(), "the end of an integration is NaN");
+        let tolerance = options.energy_tolerance;
+        assert!(tolerance >= 0.0, "an energy tolerance of {tolerance:?}: it must not be negative");
         let rest = Rest::new(stepper.time(), energy);
         Self { stepper, options, energy, rest, idle: false, counters }
     }

@@ -4,6 +4,20 @@ use super::{Bdf, Clock, HIGHEST_ORDER};
 use crate::integrator::clock;
 use crate::integrator::pace::{LEAST_RATE, Next, growth_for};
 
+/// Local errors may be this multiple of a tolerance of 1e-5: a dissipative flow forgets them. A tighter tolerance takes
+/// more steps, as its root of the order of the error, whose errors add up: the multiple shrinks with them. It shrinks with looser ones
+/// too, by this power: large errors excite stiff modes, whose cure costs more than shorter steps. The measured
+/// errors of the shipped scenes are in `benches/README.md`.
+const LOCAL_SHARE: f64 = 3.0;
+const LOOSE_POWER: f64 = 0.25;
+
+/// Local error for which the global error is about the tolerance.
+pub(super) fn local_tolerance(tolerance: f64) -> f64 {
+    let relative = tolerance / 1e-5;
+    let power = if relative < 1.0 { 1.0 / (HIGHEST_ORDER + 1) as f64 } else { -LOOSE_POWER };
+    LOCAL_SHARE * tolerance * relative.powf(power)
+}
+
 /// Safety factors on the error of order k − 1, k, k + 1: a change of order must pay.
 const BIAS: [f64; 3] = [4.0, 4.0, 6.0];
 /// … and on that of a step which is tried again: less, since its error is known.

@@ -8,7 +8,7 @@
 mod control;
 
 use super::clock::Clock;
-use super::error_norm::ErrorNorm;
+use super::error_norm::{ErrorNorm, check_start};
 use super::history::{History, MOST_POINTS, Weights, lagrange};
 use super::integrals::Integrals;
 use super::memory::Memory;
@@ -16,16 +16,10 @@ use super::newton::{Factorisation, NewtonKrylov, NewtonOutcome, Stage};
 use super::pace::{Pace, shrinking};
 use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
 use crate::geometry::vectors::add_scaled;
-use control::{BIAS_OF_FAILED, first_step};
+use control::{BIAS_OF_FAILED, first_step, local_tolerance};
 
 /// Highest order of the formulas that are stable enough.
 pub(super) const HIGHEST_ORDER: usize = 5;
-/// Local errors may be this multiple of a tolerance of 1e-5: a dissipative flow forgets them. A tighter tolerance takes
-/// more steps, as its root of the order of the error, whose errors add up: the multiple shrinks with them. It shrinks with looser ones
-/// too, by this power: large errors excite stiff modes, whose cure costs more than shorter steps. The measured
-/// errors of the shipped scenes are in `benches/README.md`.
-const LOCAL_SHARE: f64 = 3.0;
-const LOOSE_POWER: f64 = 0.25;
 /// Newton's method is solved to this part of the local tolerance: the square of its error, weighted by the
 /// stiffness, enters the dissipation and with it the energy balance.
 const NEWTON_SHARE: f64 = 0.4;
@@ -33,14 +27,9 @@ const NEWTON_SHARE: f64 = 0.4;
 /// A step whose stage was not solved is tried again with this part of it, as usual for BDF codes.
 const NEWTON_CUT: f64 = 0.25;
 
-/// Local error for which the global error is about the tolerance.
-fn local_tolerance(tolerance: f64) -> f64 {
-    let relative = tolerance / 1e-5;
-    let power = if relative < 1.0 { 1.0 / (HIGHEST_ORDER + 1) as f64 } else { -LOOSE_POWER };
-    LOCAL_SHARE * tolerance * relative.powf(power)
-}
-
-/// The method with its state.
+/// Backward differentiation formulas of order 1 to 5 with variable steps, and the last states. A step solves
+/// y = ỹ + γ(f(y) − ỹ′) by Newton's method, ỹ the polynomial through the last states; order and step follow the error. See
+/// `THEORY.md`, eqs. (I4) and (I5). [`Problem`] has an example.
 #[derive(Clone, Debug)]
 pub struct Bdf {
     history: History,
@@ -57,6 +46,9 @@ pub struct Bdf {
 
 impl Bdf {
     /// Starts at `y` and time 0 with local errors below `tolerance` in the relative norm.
+    ///
+    /// # Panics
+    /// If `y` has not the size of the problem, or `tolerance` is not positive and finite.
     pub fn new(
         problem: &mut dyn Problem,
         y: &[f64],
@@ -69,6 +61,9 @@ impl Bdf {
     }
 
     /// Starts at `y` and the time of `integrals`, which go on from their values.
+    ///
+    /// # Panics
+    /// As [`Bdf::new`].
     pub fn starting(
         problem: &mut dyn Problem,
         y: &[f64],
@@ -76,6 +71,7 @@ impl Bdf {
         tolerance: f64,
         counters: &mut Counters,
     ) -> Self {
+        check_start(problem, y, tolerance);
         let size = y.len();
         let mut norm = ErrorNorm::new(problem);
         norm.rescale(problem, y);

@@ -14,7 +14,11 @@ const NEAREST_ROUNDINGS: f64 = 16.0;
 impl Simulation {
     /// At most `steps` steps until `time`, where the last of them ends, or until the run stops. Returns whether there is
     /// more to do. A time that [`Simulation::has_reached`] takes no step.
+    ///
+    /// # Panics
+    /// If `time` is NaN.
     pub fn run_until(&mut self, time: f64, steps: u64, observer: &mut dyn Observer) -> bool {
+        assert!(!time.is_nan(), "a run until NaN: that is no time");
         self.until = time;
         self.integration.set_end(self.next_stop());
         let last = self.counters().steps.saturating_add(steps);
