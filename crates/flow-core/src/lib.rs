@@ -6,7 +6,8 @@
 //!
 //! The crate is used from a checkout of Curveflow, by its path: `flow-core = { path = "curveflow/crates/flow-core" }` among the
 //! dependencies; the feature `hdf5` adds result files (and builds HDF5, for which there must be a C compiler), `picture` figures. Programs to start from
-//! are in the folder `examples` of the checkout.
+//! are in the folder `examples` of the checkout. Build with `--release`, or with `opt-level = 3` under `[profile.dev]` of your own
+//! workspace: without optimisation runs take many times as long.
 //!
 //! # A run
 //!
@@ -64,10 +65,18 @@
 //! | draw it | `output::picture` (feature `picture`), [`output::page`] |
 //! | know which tolerance is enough | [`run::tradeoff`] |
 //! | bring your own integrator | [`run::Setup`], [`integrator::Problem`] |
+//! | integrate your own problem | [`integrator::Problem`] (with an example), [`integrator::Adaptive`], [`integrator::Bdf`] |
 //! | evaluate force, velocity and dissipation of a state | [`flow::GradientFlow`] |
 //! | add a term to the energy | as a formula of the scene (`energy.local`), or an [`energies::EnergyTerm`] in [`run::Simulation::with_terms`] |
 //! | know whether its derivatives are right | [`flow::GradientFlow::check_derivatives`] |
+//! | move the curve or its densities by another law | a [`flow::NormalMobility`], a [`flow::DensityMobility`] in [`flow::GradientFlow::new`] |
+//! | move the nodes by another rule | a [`flow::Gauge`] in [`flow::FlowMap::in_gauge`] |
+//! | have the linear operators alone | [`operators::CyclicBanded`], [`operators::Helmholtz`], [`operators::Derivative`] |
 //! | use the formulas of scenes | [`expression`] |
+//!
+//! Scenes know the mobilities and gauges of the library by name, and no others: a flow of your own is put together by hand, given to
+//! [`run::Membrane`], and that to the integrator. The folder `crates/flow-core/tests/outside` of the checkout does so with an energy, two
+//! mobilities and a gauge of its own: its `parts.rs`, `gauge.rs` and `main.rs` are the way to follow.
 //!
 //! # Layers
 //!

@@ -13,7 +13,8 @@ use crate::geometry::vectors::{
 use crate::geometry::{Complex64, Grading, Layout, PeriodicGrid};
 use crate::operators::{Derivative, GradedLaplacian};
 
-/// Applies A and Aᵀ on one grid in one gauge; holds all scratch.
+/// The flow map A of one gauge on one grid, V ↦ the rates of the state, and its exact transpose Aᵀ, the gradient ↦ the force on V; holds
+/// all scratch. See `THEORY.md`, eqs. (F2) and (F3).
 ///
 /// # Shapes
 /// Velocities, forces and stretchings: one value per node. Gradients and rates: a spectrum for each field of the state, those of

@@ -7,7 +7,8 @@ use crate::geometry::vectors::{add_scaled, scale, scale_into};
 /// A new vector of this part of its product before orthogonalisation is rounding, of fifty entries or so: the basis spans the solution.
 const EXHAUSTED: f64 = 1e-14;
 
-/// Room for Krylov bases up to a fixed size; nothing is allocated in a solve.
+/// Right-preconditioned GMRES for (I − γJ)x = r, in the inner product of the [`ErrorNorm`]: room for Krylov bases up to a fixed size;
+/// nothing is allocated in a solve. See `THEORY.md`, eq. (I3).
 ///
 /// Most solves take a few vectors, and nodes that follow the solution want new room every few steps: what is not used is not
 /// written.

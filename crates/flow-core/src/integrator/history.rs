@@ -2,7 +2,7 @@
 
 use crate::geometry::vectors::combine;
 
-/// The last states, newest first; storage is reused.
+/// The last states at their times, newest first, of which polynomials are made; storage is reused. See `THEORY.md`, eq. (I4).
 #[derive(Clone, Debug, PartialEq)]
 pub struct History {
     times: Vec<f64>,

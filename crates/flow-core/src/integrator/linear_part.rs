@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::vectors::add_scaled;
 
-/// Λ in its eigenbasis: real eigenvalues, and a basis of each mode's block where several fields are coupled.
+/// A linear part Λ of f whose exponential is at hand, in its eigenbasis: real eigenvalues, and a basis of each mode's block where several fields are coupled.
 ///
 /// A vector holds the spectra of the fields one after the other, real and imaginary parts in turn; what comes after them stands alone.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -88,7 +88,7 @@ pub(super) struct Effort {
     pub iterations: usize,
 }
 
-/// The iteration with its memory: age of the factorisation.
+/// Newton's method for a [`Stage`], each correction by [`Gmres`]; remembers the age of the factorisation. See `THEORY.md`, eq. (I2).
 #[derive(Clone, Debug)]
 pub struct NewtonKrylov {
     gmres: Gmres,

@@ -13,6 +13,55 @@ use super::linear_part::LinearPart;
 /// [`IntegrationError::OpenBalance`](crate::integrator::IntegrationError::OpenBalance) if it runs out of steps that way; if it comes to
 /// its end, it is the sum over all steps that is far out of balance. A problem without an energy tells a constant one and the dissipation 0:
 /// then its steps are controlled by their local errors alone.
+///
+/// ```
+/// use flow_core::integrator::{
+///     Adaptive, AdaptiveOptions, Bdf, Counters, DISSIPATED, Finish, INTEGRALS, Problem, Stepper,
+/// };
+///
+/// /// ẏ = −50y, with the energy 25y²; holds 1 + 50γ.
+/// struct Decay(f64);
+///
+/// impl Problem for Decay {
+///     fn size(&self) -> usize {
+///         1
+///     }
+///     fn rate(&mut self, y: &[f64], rate: &mut [f64]) {
+///         rate[0] = -50.0 * y[0];
+///     }
+///     fn linearise(&mut self, y: &[f64], rate: &mut [f64]) {
+///         self.rate(y, rate); // J is the same everywhere
+///     }
+///     fn jacobian_product(&mut self, v: &[f64], out: &mut [f64]) {
+///         self.rate(v, out);
+///     }
+///     fn factorise(&mut self, gamma: f64) -> bool {
+///         self.0 = 1.0 + 50.0 * gamma;
+///         true
+///     }
+///     fn precondition(&mut self, r: &mut [f64]) {
+///         r[0] /= self.0;
+///     }
+///     fn finish(&mut self, _: f64, y: &mut [f64]) -> Finish {
+///         let mut integral_rates = [0.0; INTEGRALS];
+///         integral_rates[DISSIPATED] = 2500.0 * y[0] * y[0]; // −E′(y)f(y)
+///         Finish::Good { energy: 25.0 * y[0] * y[0], integral_rates }
+///     }
+/// }
+///
+/// let (mut problem, mut y, tolerance) = (Decay(1.0), [1.0], 1e-6);
+/// let Finish::Good { energy, integral_rates } = problem.finish(0.0, &mut y) else { panic!("not finite") };
+/// let mut counters = Counters::default();
+/// let stepper = Bdf::new(&mut problem, &y, integral_rates, tolerance, &mut counters);
+/// let energy_tolerance = 0.01 * tolerance;
+/// let options = AdaptiveOptions { end: 0.1, most_steps: 1000, energy_tolerance, doubts_gradients: false };
+/// let mut steps = Adaptive::new(stepper, options, energy, counters);
+/// while steps.stepper().time() < options.end {
+///     steps.step(&mut problem)?;
+/// }
+/// assert!((steps.stepper().state()[0] * f64::exp(5.0) - 1.0).abs() < 1e-4);
+/// # Ok::<(), flow_core::integrator::IntegrationError>(())
+/// ```
 pub trait Problem {
     /// Length of the state.
     fn size(&self) -> usize;

@@ -98,7 +98,10 @@ impl DerivativeFamily {
     }
 }
 
-/// The symbols of one family on one grid, per unit parameter.
+/// The symbols of one family on one grid, per unit parameter: by what each Fourier mode is multiplied.
+///
+/// D₊ takes nodal values to their derivatives at the flux points, M to their values there; D₋ = −D₊ᵀ leads back, and −D₋D₊ ≥ 0 stands
+/// for −`Δ_s` (with |Γ|², and w on graded nodes). See `THEORY.md`, eq. (D16).
 #[derive(Clone, Debug)]
 pub struct Derivative {
     family: DerivativeFamily,

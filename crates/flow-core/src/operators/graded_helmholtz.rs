@@ -6,7 +6,8 @@ use super::helmholtz::{Helmholtz, HelmholtzError, REFINED_FROM, check_curvature,
 use crate::geometry::Grading;
 use crate::geometry::vectors::{add_scaled, mean_of_triple_product};
 
-/// H of a curve, in the metric of its nodes.
+/// H = −`Δ_s` + κ² of a curve, factorised for one state, in the metric of its nodes: equidistant, or graded as its derivative is. See
+/// `THEORY.md`, eqs. (O5) and (O7).
 #[derive(Clone, Debug)]
 pub struct CurveHelmholtz(On);
 

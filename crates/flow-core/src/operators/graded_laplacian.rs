@@ -5,7 +5,8 @@ use super::derivative::Derivative;
 use crate::geometry::vectors::{apply_symbol, mean_of_product, multiply, multiply_by, multiply_by_conjugate};
 use crate::geometry::{Complex64, Grading, PeriodicGrid};
 
-/// Applies S and products with powers of w to spectra, for any grading w on the nodes; holds its scratch.
+/// Applies S = D₊ᵀ(1/w)D₊, with −`Δ_s` = S/(|Γ|²w), and products with powers of w to spectra, for any grading w on the nodes; holds its
+/// scratch. See `THEORY.md`, eq. (D8).
 #[derive(Clone, Debug)]
 pub struct GradedLaplacian {
     grid: PeriodicGrid,

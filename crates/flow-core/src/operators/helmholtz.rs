@@ -46,7 +46,22 @@ const STAGGERED: [f64; 4] = [1.0, 1.0 / 24.0, 3.0 / 640.0, 5.0 / 7168.0];
 /// p and M of the compact difference of order 8, for the Fourier family; positive for all 0 ≤ x ≤ 4.
 const COMPACT: [&[f64]; 2] = [&[1.0, -31.0 / 252.0], &[1.0, -13.0 / 63.0, 23.0 / 3780.0]];
 
-/// The factorised operator of one state, with its scratch.
+/// The operator H = −`Δ_s` + κ² on equidistant nodes, factorised for one state: it solves Hu = f in `O(n)`. H is symmetric and positive on
+/// every closed curve. See `THEORY.md`, eq. (O5); on graded nodes there is [`CurveHelmholtz`](super::CurveHelmholtz).
+///
+/// ```
+/// use flow_core::operators::{DerivativeFamily, Helmholtz};
+/// use std::f64::consts::TAU;
+///
+/// // On the unit circle κ = 1, and H cos 2s = (4 + 1) cos 2s.
+/// let mut helmholtz = Helmholtz::new(DerivativeFamily::Fourier, 64);
+/// helmholtz.set(&[1.0; 64], TAU)?;
+/// let wave: Vec<f64> = (0..64).map(|i| (2.0 * TAU * i as f64 / 64.0).cos()).collect();
+/// let mut u = [0.0; 64];
+/// helmholtz.solve(&wave, &mut u);
+/// assert!(u.iter().zip(&wave).all(|(u, wave)| (5.0 * u - wave).abs() < 1e-9));
+/// # Ok::<(), flow_core::operators::HelmholtzError>(())
+/// ```
 #[derive(Debug)]
 pub struct Helmholtz {
     nodes: usize,

@@ -4,7 +4,7 @@ use multiversion::multiversion;
 
 use super::factorisation_error::FactorisationError;
 
-/// A square matrix and its factors.
+/// A small square matrix and, in its place, its factors; pivoted.
 #[derive(Clone, Debug)]
 pub struct SmallLu {
     size: usize,

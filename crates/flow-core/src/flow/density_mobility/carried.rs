@@ -4,7 +4,7 @@ use super::DensityMobility;
 use crate::flow::CurveFields;
 use crate::geometry::Complex64;
 
-/// Every labelled segment keeps its mass.
+/// 𝓖 = 0: the density is carried along, and every labelled segment keeps its mass. See `THEORY.md`, eq. (F16).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Carried;
 

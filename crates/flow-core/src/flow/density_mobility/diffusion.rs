@@ -6,7 +6,7 @@ use crate::geometry::vectors::{apply_real_symbol, scale};
 use crate::geometry::{Complex64, PeriodicGrid};
 use crate::operators::{Derivative, GradedLaplacian};
 
-/// By the second derivative of the family; the mass is conserved.
+/// Diffusion, 𝓖 = −`Δ_s` by the second derivative of the family; the mass is conserved. See `THEORY.md`, eq. (F5).
 #[derive(Clone, Debug)]
 pub struct Diffusion {
     minus_laplacian: Vec<f64>,

@@ -5,7 +5,7 @@ use crate::flow::CurveFields;
 use crate::geometry::{Complex64, PeriodicGrid};
 use crate::operators::{Derivative, GradedLaplacian};
 
-/// The mass is not conserved.
+/// Exchange with the surroundings, 𝓖 = Id; the mass is not conserved. See `THEORY.md`, eq. (F15).
 #[derive(Clone, Debug)]
 pub struct Exchange {
     graded: Option<GradedLaplacian>,

@@ -9,7 +9,7 @@ use crate::geometry::vectors::multiply;
 use crate::geometry::{Complex64, PeriodicGrid};
 use crate::operators::Derivative;
 
-/// The mass is conserved.
+/// Diffusion with a weight w(s) > 0 fixed on the parameter, 𝓖 = −∇_s(w∇_s·); the mass is conserved. See `THEORY.md`, eq. (F14).
 #[derive(Clone, Debug)]
 pub struct WeightedDiffusion {
     grid: PeriodicGrid,

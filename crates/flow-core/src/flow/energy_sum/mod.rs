@@ -28,7 +28,10 @@ pub use alone::TermCost;
 pub use not_finite::{NotFinite, TermPart, TermPlace};
 pub use undeclared::UndeclaredPart;
 
-/// All terms of a scene.
+/// The discrete energy `𝓕_h` of all terms, with its exact gradient and second derivative on the grid.
+///
+/// With pointwise fields φ and length L, `𝓕_h` = L⟨e⟩ + Σ c/(2L) ⟨|D₊φ|²⟩ + L⟨e′⟩ + Φ(L) and the part of the positions, ⟨·⟩ the mean over
+/// the nodes, weighted where they are graded. See `THEORY.md`, eqs. (D3)–(D5), (D7) and (D9).
 ///
 /// # Shapes
 /// Gradients: a spectrum for each field of the state, dual to the pointwise fields φ (and to the metric, if it is one), and one

@@ -5,7 +5,7 @@ use crate::flow::CurveFields;
 use crate::geometry::Complex64;
 use crate::geometry::vectors::{multiply, multiply_into, scale};
 
-/// Nodes are material points.
+/// W = 0: nodes are material points, which move along the normal, and the metric g is a field of the state. See `THEORY.md`, eq. (F19).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CoMoving;
 

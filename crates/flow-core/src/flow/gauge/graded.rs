@@ -7,6 +7,8 @@ use crate::geometry::vectors::{
 };
 use crate::geometry::{Complex64, Grading};
 
+/// ∂_sW = w(−|Γ|κV + ∂_t|Γ|) with ∫W dσ = 0 and the grading w: see `THEORY.md`, eqs. (F3) and (F17).
+///
 /// The nodes keep their fractions of the arc length, those of a grading: without one there is [`ScaledArcLength`](super::ScaledArcLength).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Graded;

@@ -30,7 +30,8 @@ pub enum MetricRole {
     Field,
 }
 
-/// Which tangential velocity goes with a normal one.
+/// Which tangential velocity W goes with a normal one V, linear in it, and the exact transpose of that. See `THEORY.md`, eqs. (F1)–(F3),
+/// (F17) and (F19).
 ///
 /// A gauge holds no state: one may serve any number of flows. The part of the curvature's rate that no gauge changes,
 /// `−Δ_s`V, and its transpose are not its business.

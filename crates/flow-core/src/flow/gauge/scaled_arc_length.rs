@@ -5,7 +5,7 @@ use crate::flow::CurveFields;
 use crate::geometry::Complex64;
 use crate::geometry::vectors::{multiply_by_conjugate, multiply_into, scale, shift_into};
 
-/// The nodes stay at equal distances.
+/// ∂_sW = −|Γ|κV + ∂_t|Γ| with ∫W dσ = 0: the nodes stay at equal distances. See `THEORY.md`, eqs. (F1)–(F3).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ScaledArcLength;
 

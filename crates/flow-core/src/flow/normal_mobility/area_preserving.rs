@@ -3,7 +3,7 @@
 use super::{Kept, NormalMobility};
 use crate::flow::CurveFields;
 
-/// V = f − ⟨f⟩, the mean over the curve.
+/// The area is held: V = f − ⟨f⟩, the mean over the curve. See `THEORY.md`, eq. (F9).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct AreaPreserving;
 

@@ -3,7 +3,7 @@
 use super::NormalMobility;
 use crate::flow::CurveFields;
 
-/// V = f.
+/// The L² flow, 𝓑 = Id: V = f. See `THEORY.md`, eq. (F4).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Identity;
 

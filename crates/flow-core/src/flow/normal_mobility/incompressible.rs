@@ -4,7 +4,9 @@ use super::{Kept, MobilityError, NormalMobility};
 use crate::flow::CurveFields;
 use crate::operators::{CurveHelmholtz, Derivative};
 
-/// V = 𝓘f. The kernel of 𝓘 is spanned by κ; projecting κ out before and after changes nothing but the rounding, and
+/// Every piece of the curve keeps its length: V = 𝓘f with 𝓘 = Id − κH⁻¹κ, H = −`Δ_s` + κ². See `THEORY.md`, eq. (F8).
+///
+/// The kernel of 𝓘 is spanned by κ; projecting κ out before and after changes nothing but the rounding, and
 /// makes the rate of the length ⟨κV⟩|Γ| zero up to it.
 #[derive(Clone, Debug)]
 pub struct Incompressible {

@@ -7,7 +7,8 @@ use crate::operators::Derivative;
 /// Mean square of the part of 1 off κ below which the curve is a circle to rounding: 1 is in the kernel of 𝓘.
 const ROUND: f64 = 1e-24;
 
-/// V = 𝓘f − (⟨𝓘f, 1⟩/⟨𝓘1, 1⟩) 𝓘1. On a circle 𝓘1 = 0, and 𝓘 keeps the area by itself.
+/// Every piece of the curve keeps its length, and the area is held: V = 𝓘f − (⟨𝓘f, 1⟩/⟨𝓘1, 1⟩) 𝓘1 with 𝓘 of
+/// [`Incompressible`](super::Incompressible). See `THEORY.md`, eq. (F10). On a circle 𝓘1 = 0, and 𝓘 keeps the area by itself.
 #[derive(Clone, Debug)]
 pub struct IncompressibleAreaPreserving {
     incompressible: Incompressible,

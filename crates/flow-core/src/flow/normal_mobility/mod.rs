@@ -37,7 +37,12 @@ pub struct Kept {
     pub area: bool,
 }
 
-/// Turns the force on the normal motion into the normal velocity; holds what it needs of one state.
+/// Turns the force f on the normal motion into the normal velocity V = 𝓑f; holds what it needs of one state. See `THEORY.md`, eqs. (F4),
+/// (F6) and (F17).
+///
+/// 𝓑 must be self-adjoint and ≥ 0, ⟨f, 𝓑h⟩ = ⟨𝓑f, h⟩ and ⟨f, 𝓑f⟩ ≥ 0 in the mean over the curve ([`CurveFields::mean_of_product`]),
+/// exactly on the grid: the energy is lost at the rate ⟨f, 𝓑f⟩|Γ| by it, and a step that gains energy is refused. The symbol serves the
+/// preconditioners alone: where it is off solves take longer, and results stay.
 pub trait NormalMobility: Debug + Send + Sync {
     /// Whether V = f.
     fn is_identity(&self) -> bool {

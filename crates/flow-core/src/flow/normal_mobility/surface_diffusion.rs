@@ -6,7 +6,7 @@ use crate::geometry::vectors::{multiply, scale};
 use crate::geometry::{Complex64, PeriodicGrid};
 use crate::operators::{Derivative, GradedLaplacian};
 
-/// V = −`Δ_s` f by the second derivative of the family.
+/// Surface diffusion, the H⁻¹ flow: V = −`Δ_s` f by the second derivative of the family. See `THEORY.md`, eq. (F12).
 #[derive(Clone, Debug)]
 pub struct SurfaceDiffusion {
     grid: PeriodicGrid,

@@ -46,7 +46,7 @@ enum FieldInverse {
     Dense(Dense),
 }
 
-/// A preconditioner for one gradient flow.
+/// An approximate inverse of I − γJ, J the Jacobian of one gradient flow. See `THEORY.md`, section 5.
 #[derive(Debug)]
 pub struct Preconditioner {
     inverse: FieldInverse,

@@ -36,7 +36,8 @@ const MOST_CHANGES: usize = 5;
 /// Accepted steps after which Λ is taken anew.
 const OLDEST_PART: usize = 20;
 
-/// The method with its state.
+/// Exponential Adams method of variable order and step: exact in the linear part Λ of f, with a polynomial through the last values of the
+/// rest, f − Λy. See `THEORY.md`, eqs. (I10)–(I12). [`Multistep`](super::Multistep) starts it.
 #[derive(Clone, Debug)]
 pub struct Exponential {
     states: History,
