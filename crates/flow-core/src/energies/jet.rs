@@ -113,12 +113,18 @@ impl Jet {
     }
 
     /// ∂e/∂φ at the nodes, φ = field `field`.
+    ///
+    /// # Panics
+    /// If there is no such field.
     #[must_use]
     pub fn first(&self, field: usize) -> &[f64] {
         &self.first[field * self.nodes..(field + 1) * self.nodes]
     }
 
     /// ∂²e/∂φ∂ψ at the nodes.
+    ///
+    /// # Panics
+    /// If there are no such fields.
     #[must_use]
     pub fn second(&self, a: usize, b: usize) -> &[f64] {
         let block = Self::block(a, b);
@@ -142,16 +148,25 @@ impl Jet {
     }
 
     /// e and ∂e/∂φ, to be added to.
+    ///
+    /// # Panics
+    /// If there is no such field.
     pub fn value_and_first_mut(&mut self, field: usize) -> (&mut [f64], &mut [f64]) {
         (&mut self.value, &mut self.first[field * self.nodes..(field + 1) * self.nodes])
     }
 
     /// ∂e/∂φ, to be added to.
+    ///
+    /// # Panics
+    /// If there is no such field.
     pub fn first_mut(&mut self, field: usize) -> &mut [f64] {
         &mut self.first[field * self.nodes..(field + 1) * self.nodes]
     }
 
     /// ∂²e/∂φ∂ψ, to be added to.
+    ///
+    /// # Panics
+    /// If there are no such fields.
     pub fn second_mut(&mut self, a: usize, b: usize) -> &mut [f64] {
         let block = Self::block(a, b);
         &mut self.second[block * self.nodes..(block + 1) * self.nodes]

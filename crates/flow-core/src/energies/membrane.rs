@@ -13,7 +13,7 @@ impl Membrane {
     /// The penalty 1/ε > 0 on density `density` (counted from 0), in energy per length; states must have that density.
     ///
     /// # Panics
-    /// If ε is not positive.
+    /// If ε is not positive. On states without that density, where it is evaluated.
     #[must_use]
     pub fn new(density: usize, epsilon: f64) -> Self {
         assert!(epsilon > 0.0, "a membrane of compressibility {epsilon:?}: it must be positive");

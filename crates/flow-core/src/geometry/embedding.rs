@@ -64,13 +64,20 @@ impl Embedding {
 
     /// Tangents and closure gap of the curve with turning per parameter `turning` (nodal) and length `length`,
     /// with mean tangent angle `angle`. Call before the accessors.
+    ///
+    /// # Panics
+    /// If there is not one value per node.
     pub fn set_tangent(&mut self, turning: &[f64], length: f64, angle: f64) {
         self.grid.transform(turning, &mut self.spectrum);
         self.tangent_of_spectrum(length, angle);
     }
 
     /// As [`Embedding::set_tangent`], from the spectrum of the turning.
+    ///
+    /// # Panics
+    /// If there are not [`PeriodicGrid::modes`] coefficients.
     pub fn set_tangent_spectrum(&mut self, turning: &[Complex64], length: f64, angle: f64) {
+        assert_eq!(turning.len(), self.spectrum.len(), "Fourier coefficients of the turning");
         self.spectrum.copy_from_slice(turning);
         self.tangent_of_spectrum(length, angle);
     }

@@ -88,18 +88,28 @@ impl PeriodicGrid {
     }
 
     /// Fourier coefficients of nodal values; the coefficient 0 is the mean.
+    ///
+    /// # Panics
+    /// If there are not [`PeriodicGrid::nodes`] values and [`PeriodicGrid::modes`] coefficients.
     pub fn transform(&mut self, values: &[f64], spectrum: &mut [Complex64]) {
         self.transform.forward(values, spectrum);
     }
 
     /// Nodal values of Fourier coefficients; those of the mean and of the sawtooth count by their real parts.
+    ///
+    /// # Panics
+    /// As [`PeriodicGrid::transform`].
     pub fn synthesise(&mut self, spectrum: &[Complex64], values: &mut [f64]) {
         self.transform.inverse(spectrum, values);
     }
 
     /// Divides a spectrum by 2πij: the antiderivative with mean zero. Mean and sawtooth are lost; on nodal values
     /// the map is exactly skew.
+    ///
+    /// # Panics
+    /// If there are not [`PeriodicGrid::modes`] coefficients.
     pub fn integrate(&self, spectrum: &mut [Complex64]) {
+        assert_eq!(spectrum.len(), self.modes(), "Fourier coefficients of the grid");
         turn_back(spectrum, &self.inverse_wave_numbers);
         spectrum[0] = Complex64::default();
         if let Some(sawtooth) = self.sawtooth_mode() {

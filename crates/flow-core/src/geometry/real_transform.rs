@@ -72,9 +72,20 @@ impl RealTransform {
         }
     }
 
+    /// Panics unless there are as many values and coefficients as the transform is for.
+    #[track_caller]
+    fn check(&self, values: &[f64], spectrum: &[Complex64]) {
+        let lengths = (self.values, self.values / 2 + 1);
+        assert_eq!(
+            (values.len(), spectrum.len()),
+            lengths,
+            "nodal values and Fourier coefficients of the grid"
+        );
+    }
+
     /// `spectrum[k]` = Σ `values[j]` e^{−2πijk/N}/N for k ≤ N/2.
     pub fn forward(&mut self, values: &[f64], spectrum: &mut [Complex64]) {
-        assert_eq!((values.len(), spectrum.len()), (self.values, self.values / 2 + 1), "lengths are fixed");
+        self.check(values, spectrum);
         let scale = 1.0 / self.values as f64;
         if self.turns.is_empty() {
             for (work, value) in self.work.iter_mut().zip(values) {
@@ -94,7 +105,7 @@ impl RealTransform {
     /// The real values with the Fourier coefficients `spectrum`; the imaginary parts of the mean and of the
     /// sawtooth, which real values do not have, are ignored.
     pub fn inverse(&mut self, spectrum: &[Complex64], values: &mut [f64]) {
-        assert_eq!((values.len(), spectrum.len()), (self.values, self.values / 2 + 1), "lengths are fixed");
+        self.check(values, spectrum);
         if self.turns.is_empty() {
             let last = self.values;
             self.work[0] = Complex64::new(spectrum[0].re, 0.0);

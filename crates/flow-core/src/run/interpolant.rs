@@ -62,19 +62,26 @@ impl Interpolant {
     }
 
     /// Values at `count` equidistant nodes, at least as many as it came from.
+    ///
+    /// # Panics
+    /// If there are fewer.
     #[must_use]
     pub fn resampled(&self, count: usize) -> Vec<f64> {
         self.on_nodes(count, |_, coefficient| coefficient)
     }
 
     /// Derivatives by s at `count` equidistant nodes, at least as many as it came from.
+    ///
+    /// # Panics
+    /// If there are fewer.
     #[must_use]
     pub fn slopes(&self, count: usize) -> Vec<f64> {
         self.on_nodes(count, |wave, coefficient| coefficient * Complex64::new(0.0, wave))
     }
 
     fn on_nodes(&self, count: usize, symbol: impl Fn(f64, Complex64) -> Complex64) -> Vec<f64> {
-        assert!(count >= self.grid.nodes(), "fewer nodes would fold the highest modes");
+        let nodes = self.grid.nodes();
+        assert!(count >= nodes, "{count} nodes, fewer than {nodes}, would fold the highest modes");
         let mut finer = PeriodicGrid::new(count);
         let mut spectrum = vec![Complex64::default(); finer.modes()];
         for (mode, coefficient) in self.spectrum.iter().enumerate() {

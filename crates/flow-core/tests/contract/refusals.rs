@@ -9,10 +9,11 @@ use flow_core::expression::Expression;
 use flow_core::flow::{EnergySum, FlowMap, GradientFlow, Identity};
 use flow_core::geometry::shapes::{Shape, ShapeError};
 use flow_core::geometry::{
-    CellList, Closure, Complex64, Grading, Layout, PeriodicGrid, ScatteredPoints, SpectralLayout,
-    follow_scales,
+    CellList, Closure, Complex64, Embedding, Grading, Layout, PeriodicGrid, ScatteredPoints, SpectralLayout,
+    enclosed_area, follow_scales,
 };
 use flow_core::operators::{CyclicBanded, Derivative, DerivativeFamily};
+use flow_core::run::Interpolant;
 use flow_core::run::scene::Formula;
 
 /// Checks that a call panics with `message`.
@@ -114,6 +115,21 @@ fn spectra_of_other_grids() {
     let values = ScatteredPoints::new(32, &[0.0, f64::NAN, f64::INFINITY, 0.5]).values(&wave);
     assert!((values[0] - 1.0).abs() < 1e-12 && (values[3] + 1.0).abs() < 1e-12, "{values:?}");
     assert!(values[1].is_nan() && values[2].is_nan(), "{values:?}");
+}
+
+#[test]
+fn values_of_other_grids() {
+    let (mut grid, zero) = (PeriodicGrid::new(8), Complex64::default());
+    panics("nodal values and Fourier", || grid.transform(&[0.0; 7], &mut [zero; 5]));
+    panics("nodal values and Fourier", || grid.synthesise(&[zero; 4], &mut [0.0; 8]));
+    for modes in [0, 2, 6] {
+        panics("coefficients of the grid", || grid.integrate(&mut vec![zero; modes]));
+    }
+    panics("coefficients of the turning", || Embedding::new(8).set_tangent_spectrum(&[zero; 4], TAU, 0.0));
+    let (long, short) = ([0.0; 8].as_slice(), [0.0; 7].as_slice());
+    panics("one value per node", || _ = enclosed_area([short, long], [long, long], TAU));
+    panics("one value per node", || _ = enclosed_area([long, long], [long, short], TAU));
+    panics("4 nodes, fewer than 8", || _ = Interpolant::new(long).slopes(4));
 }
 
 #[test]

@@ -20,7 +20,7 @@ pub use weighted_diffusion::WeightedDiffusion;
 /// Turns the chemical potential ∂_ρ𝓕 into the rate of a density: Dρ/Dt = −𝓖∂_ρ𝓕. See `THEORY.md`, eqs. (F5), (F6) and (F17).
 ///
 /// 𝓖 must be self-adjoint and ≥ 0, ⟨μ, 𝓖ν⟩ = ⟨𝓖μ, ν⟩ and ⟨μ, 𝓖μ⟩ ≥ 0 in the mean over the curve, exactly on the grid: the energy is lost
-/// at the rate ⟨∂_ρ𝓕, 𝓖∂_ρ𝓕⟩ by it, and a step that gains energy is refused. The symbol and [`DensityMobility::three_points`] serve the
+/// at the rate ⟨∂_ρ𝓕, 𝓖∂_ρ𝓕⟩|Γ| by it, and a step that gains energy is refused. The symbol and [`DensityMobility::three_points`] serve the
 /// preconditioners alone: where they are off solves take longer, and results stay.
 pub trait DensityMobility: Debug + Send + Sync {
     /// Whether 𝓖 = 0: the density is only carried along.
