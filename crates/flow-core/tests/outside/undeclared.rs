@@ -7,7 +7,7 @@ use flow_core::run::{Scene, SetupError, Simulation};
 
 use crate::uniform::start;
 
-/// ∫κ² dσ, ∫κ_s² dσ or minus the area, as `part` says, without a word.
+/// ∫κ² dσ, ∫`κ_s²` dσ or minus the area, as `part` says, without a word.
 #[derive(Debug)]
 struct Silent {
     part: usize,

@@ -34,7 +34,7 @@ pub struct Rate {
     pub dissipation: f64,
 }
 
-/// The gradient flow dy/dt = −`𝓚(y)∇𝓕_h`, 𝓚 = A𝓑Aᵀ + 𝓖, on one grid, with all its scratch. See `THEORY.md`, eqs. (F6) and (F7).
+/// The gradient flow dy/dt = −`𝓚(y)∇𝓕_h`, 𝓚 = `A𝓑Aᵀ` + 𝓖, on one grid, with all its scratch. See `THEORY.md`, eqs. (F6) and (F7).
 ///
 /// ```
 /// use flow_core::energies::{Bending, EnergyTerm, Length};
