@@ -84,8 +84,9 @@ pub trait EnergyTerm: Debug + Send + Sync {
     fn name(&self) -> &'static str;
 
     /// Whether [`EnergyTerm::add_density`] adds anything. Where this or one of the other two flags says no, the part is not asked for:
-    /// runs with terms from outside and [`GradientFlow::check_derivatives`](crate::flow::GradientFlow::check_derivatives) look whether one
-    /// was forgotten.
+    /// [`Simulation::with_terms`](crate::run::Simulation::with_terms) and
+    /// [`GradientFlow::check_derivatives`](crate::flow::GradientFlow::check_derivatives) look whether one was forgotten, but a flow that
+    /// is put together by hand does not.
     fn has_density(&self) -> bool {
         false
     }

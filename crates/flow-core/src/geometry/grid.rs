@@ -118,7 +118,8 @@ impl PeriodicGrid {
     }
 
     /// Sets the imaginary parts of mean and sawtooth to zero, as those of real fields are, in consecutive spectra. The rounding
-    /// of symbols must not leave any: no implicit operator acts on them, and no solve could reduce them.
+    /// of symbols must not leave any: no implicit operator acts on them, and no solve could reduce them. What is left beyond the last
+    /// whole spectrum stays as it is.
     pub fn make_real(&self, spectra: &mut [Complex64]) {
         for spectrum in spectra.chunks_exact_mut(self.modes()) {
             spectrum[0].im = 0.0;
