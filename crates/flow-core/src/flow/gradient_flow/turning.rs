@@ -1,6 +1,7 @@
 //! From a rate of the curvature back to the motion that makes it.
 
-use super::GradientFlow;
+use super::{Descent, GradientFlow};
+use crate::flow::graded_energy::add_spectrum;
 use crate::geometry::Complex64;
 
 impl GradientFlow {
@@ -70,5 +71,13 @@ impl GradientFlow {
         for (density, rate) in densities.iter_mut().zip(&self.descent.gradient.spectra[modes..]) {
             *density += rate * factor;
         }
+    }
+
+    /// Adds `factor` times the rate of the density `field` by the gradient at hand to the spectrum `rates`, at the frozen state.
+    pub(in crate::flow) fn add_density_rate(&mut self, field: usize, factor: f64, rates: &mut [Complex64]) {
+        let Descent { layout, density_mobilities, gradient, spectrum, .. } = &mut self.descent;
+        let at = &self.frozen.fields;
+        density_mobilities[field - 1].apply(at, &gradient.spectra[layout.spectrum(field)], spectrum);
+        add_spectrum(rates, -factor * at.length(), spectrum);
     }
 }

@@ -8,6 +8,7 @@ mod metric_coupling;
 mod motion;
 mod residual_weights;
 mod stiff_curvature;
+mod stiff_exchange;
 
 use serde::{Deserialize, Serialize};
 
@@ -22,6 +23,7 @@ use metric_coupling::MetricCoupling;
 use motion::carries;
 pub use residual_weights::ResidualWeights;
 use stiff_curvature::StiffCurvature;
+use stiff_exchange::StiffExchange;
 
 /// How the linear systems of the implicit steps are preconditioned.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -54,6 +56,8 @@ pub struct Preconditioner {
     carries: bool,
     /// Where the metric is a field: the inverse then acts on the normal velocity and the densities.
     metric: Option<MetricCoupling>,
+    /// Where densities exchange at no cost of slopes.
+    exchange: Option<StiffExchange>,
     /// None where the mobility keeps the length.
     coupling: Option<LengthCoupling>,
     weights: ResidualWeights,
@@ -85,6 +89,7 @@ impl Preconditioner {
             inverse,
             carries: carries(flow) && !whole,
             metric: MetricCoupling::of(flow).filter(|_| !whole),
+            exchange: StiffExchange::of(flow).filter(|_| !whole),
             coupling: (coupled && !whole).then(|| LengthCoupling::new(flow)),
         }
     }
@@ -103,6 +108,9 @@ impl Preconditioner {
         self.weights.set(flow, gamma);
         if let Some(metric) = &mut self.metric {
             metric.set(flow, gamma);
+        }
+        if let Some(exchange) = &mut self.exchange {
+            exchange.set(flow, gamma);
         }
         match &mut self.inverse {
             FieldInverse::Fourier(symbol) => symbol.set(flow, gamma, 0),
@@ -149,6 +157,9 @@ impl Preconditioner {
         if let Some(metric) = &mut self.metric {
             metric.take_velocity(flow, r);
         }
+        if let Some(exchange) = &mut self.exchange {
+            exchange.relax(flow, r);
+        }
         if self.carries {
             flow.carry_densities(r, -1.0);
         }
@@ -164,6 +175,9 @@ impl Preconditioner {
         }
         if self.carries {
             flow.carry_densities(r, 1.0);
+        }
+        if let Some(exchange) = &mut self.exchange {
+            exchange.complete(flow, r);
         }
         if let Some(metric) = &mut self.metric {
             metric.make_motion(flow, r);
