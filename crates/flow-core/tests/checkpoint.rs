@@ -37,6 +37,13 @@ fn scenes() -> Vec<Scene> {
         shipped("incompressible", &[("flow.normal_mobility", "incompressible-area-preserving")]),
         shipped("adhesion", &[("time.end", "0.02"), ("accuracy.derivative", "central-4")]),
         shipped("membrane_penalty", &[("accuracy.linear_solver", "banded")]),
+        shipped(
+            "membrane_penalty",
+            &[
+                ("density", "[{ name = 'membrane', initial = 1, mobility = 'exchange' }]"),
+                ("energy.membrane.epsilon", "1e-7"),
+            ],
+        ),
         // Stopped by the watch over the dissipation, and held at rest by that over the energy.
         shipped(
             "circle",
