@@ -12,6 +12,7 @@ mod exports;
 mod file_path;
 mod operators;
 mod record;
+mod runs;
 mod scene;
 mod simulation;
 mod system;
@@ -43,7 +44,9 @@ mod _curveflow {
     #[pymodule_export]
     use super::operators::{energy, flow_map, geometry, helmholtz, incompressibility, normal_force};
     #[pymodule_export]
-    use super::record::{Record, read, run};
+    use super::record::Record;
+    #[pymodule_export]
+    use super::runs::{read, run};
     #[pymodule_export]
     use super::scene::{Scene, schema, shipped};
     #[pymodule_export]

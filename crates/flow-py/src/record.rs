@@ -1,42 +1,21 @@
-//! Runs and result files: records in, arrays out.
-
-use std::time::Duration;
+//! Records in, arrays out.
 
 use flow_core::output::page::{self, PageError};
-use flow_core::output::{StorageError, checkpoint, hdf5_file};
+use flow_core::output::{StorageError, hdf5_file};
 use flow_core::run::{self as core, Frame, Rejections};
 use numpy::PyArray3;
-use pyo3::exceptions::{PyKeyError, PyValueError};
+use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::{Table, Vector, copied, pairs, table, vector};
 use crate::error::detached;
 use crate::file_path::FilePath;
-use crate::scene::Scene;
-use crate::watcher::Watcher;
 
 /// A finished or interrupted run.
 #[pyclass(frozen, module = "curveflow._curveflow")]
 pub struct Record {
     pub(crate) core: core::Record,
-}
-
-/// Runs `scene`; comes back every few milliseconds for signals, and to call `callback` with the fields of `Progress`
-/// after steps that end at least `interval` seconds apart.
-#[pyfunction]
-pub fn run(py: Python<'_>, scene: &Scene, callback: Option<Py<PyAny>>, interval: f64) -> PyResult<Record> {
-    let interval = Duration::try_from_secs_f64(interval)
-        .map_err(|error| PyValueError::new_err(format!("interval = {interval}: {error}")))?;
-    let mut watcher = Watcher::new(callback, interval);
-    let core = detached(py, || core::run(&scene.core, &mut watcher))?;
-    watcher.other(py).map_or(Ok(Record { core }), Err)
-}
-
-/// Reads a result file, or what its run has so far.
-#[pyfunction]
-pub fn read(py: Python<'_>, path: FilePath) -> PyResult<Record> {
-    Ok(Record { core: detached(py, || Ok::<_, StorageError>(checkpoint::so_far(&path.0)?.record))? })
 }
 
 #[pymethods]
