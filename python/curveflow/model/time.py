@@ -15,7 +15,7 @@ class Time(Table):
     end: float
     """Simulated time at which the run ends at the latest, > 0."""
     stop_at_equilibrium: bool = default("time", "stop_at_equilibrium")
-    """Whether to stop before ``end`` once the flow is at rest (THEORY.md, I7): a metastable state counts if it lasts until ``end``."""
+    """Whether to stop before ``end`` once the flow is at rest (THEORY.md, I7), or creeps by less than the tolerance tells."""
     equilibrium_tolerance: float | None = None
     """At rest means: the energy still to be lost is at most this fraction of the energy. In (0, 1e-2]; a hundredth of
     the accuracy's tolerance unless given, a tenth with co-moving nodes."""

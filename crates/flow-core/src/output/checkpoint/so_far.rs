@@ -24,7 +24,8 @@ pub fn so_far(path: &Path) -> Result<SoFar, StorageError> {
     match hdf5_file::read(path) {
         Ok(record) => Ok(SoFar { record, checkpoint: None }),
         Err(error) if is_missing(&error) => match Pair::beside(path).newest()? {
-            None => Err(error),
+            // The run may have ended in between.
+            None => Ok(SoFar { record: hdf5_file::read(path)?, checkpoint: None }),
             Some(found) => {
                 let mut simulation = found.checkpoint.simulation(&found.path)?;
                 let time = simulation.time();
