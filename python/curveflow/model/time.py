@@ -15,7 +15,8 @@ class Time(Table):
     end: float
     """Simulated time at which the run ends at the latest, > 0."""
     stop_at_equilibrium: bool = default("time", "stop_at_equilibrium")
-    """Whether to stop before ``end`` once the flow is at rest (THEORY.md, I7), or creeps by less than the tolerance tells."""
+    """Whether to stop before ``end`` once the flow is at rest (THEORY.md, I7): a metastable state counts if
+    its creep, as it is, would lose less than the tolerance until ``end``."""
     equilibrium_tolerance: float | None = None
     """At rest means: the energy still to be lost is at most this fraction of the energy. In (0, 1e-2]; a hundredth of
     the accuracy's tolerance unless given, a tenth with co-moving nodes."""

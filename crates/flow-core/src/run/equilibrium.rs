@@ -14,19 +14,14 @@ const ROUNDING: f64 = 1e-15;
 const STEPS: u32 = 5;
 /// What a flow at rest may lose by creeping on to the end as it does, in units of what it may still lose.
 const CREEP: f64 = 100.0;
-/// … over so many times its age, and this part of the run at least: what rounding and new nodes do to the energy, which goes on for
-/// ever, is no creep.
-const AGES_AHEAD: f64 = 1e3;
-const PART_AHEAD: f64 = 1e-4;
 
 /// Watches the dissipation.
 ///
 /// The energy still to be lost is about D·t, or ∫D dt to the end if D goes on as it does, by a power of the time, and that is more:
 /// from rough data a flow settles by powers above −1, and a stiff penalty dies long before the curve has moved, so that early on D·t is
 /// small, and yet nearly all is to come. The flow is at rest once that has stayed below a part of the energy while the time doubled, and
-/// D itself, if it stayed as it is for a thousand times as long, or a ten thousandth of the run, would not lose a hundred times as much,
-/// which is the tolerance unless the scene says otherwise: a fast layer hides what comes after it. A flow that creeps (a metastable
-/// state) is at rest by this measure.
+/// D itself, if it stayed as it is to the end, would not lose a hundred times as much, which is the tolerance unless the scene says
+/// otherwise: a fast layer hides what comes after it. A flow that creeps (a metastable state) is at rest by this measure.
 ///
 /// D counts as far as the energy falls by it: what solves leave in stiff modes dissipates, and moves nothing. Low down rounding makes the
 /// power a matter of chance, and some flows creep on: they stay at rest as long as the mean rate since then would not lose more either.
@@ -63,8 +58,7 @@ impl Equilibrium {
         let power = (last_dissipation / dissipation).ln() / (time / last_time).ln();
         let remaining = dissipation * time * to_come(power, self.end / time).max(1.0);
         let bound = self.tolerance * scale;
-        let ahead = (self.end - time).min((AGES_AHEAD * time).max(PART_AHEAD * self.end));
-        let creeps = |rate: f64| rate * ahead <= CREEP * bound;
+        let creeps = |rate: f64| rate * (self.end - time) <= CREEP * bound;
         let stands_still = self.quiet.as_mut().is_some_and(|(since, sum)| {
             *sum += lost;
             creeps((sum.max(0.0) + rounding) / (time - *since))
