@@ -1,10 +1,7 @@
 //! Where records come from: runs and result files.
 
-use std::time::Duration;
-
 use flow_core::output::{StorageError, checkpoint};
 use flow_core::run as core;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::error::detached;
@@ -17,9 +14,7 @@ use crate::watcher::Watcher;
 /// after steps that end at least `interval` seconds apart.
 #[pyfunction]
 pub fn run(py: Python<'_>, scene: &Scene, callback: Option<Py<PyAny>>, interval: f64) -> PyResult<Record> {
-    let interval = Duration::try_from_secs_f64(interval)
-        .map_err(|error| PyValueError::new_err(format!("interval = {interval}: {error}")))?;
-    let mut watcher = Watcher::new(callback, interval);
+    let mut watcher = Watcher::new(callback, interval)?;
     let core = detached(py, || core::run(&scene.core, &mut watcher))?;
     watcher.other(py).map_or(Ok(Record::new(core)), Err)
 }

@@ -1,11 +1,10 @@
 //! Runs that are driven from Python, step by step.
 
 use std::sync::{Mutex, MutexGuard};
-use std::time::Duration;
 
 use flow_core::output::{StorageError, checkpoint};
 use flow_core::run::{self as core, Frame, StepLog};
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
 use crate::arrays::{Table, Vector, table, vector};
@@ -83,12 +82,10 @@ impl Simulation {
         callback: Option<Py<PyAny>>,
         interval: f64,
     ) -> PyResult<bool> {
-        let interval = Duration::try_from_secs_f64(interval)
-            .map_err(|error| PyValueError::new_err(format!("interval = {interval}: {error}")))?;
+        let mut watcher = Watcher::new(callback, interval)?;
         let mut guard = self.lock()?;
         let simulation = &mut *guard;
         simulation.go_on();
-        let mut watcher = Watcher::new(callback, interval);
         let more = detached::<_, StorageError>(py, || Ok(simulation.run_until(time, steps, &mut watcher)))?;
         watcher.raised.map_or(Ok(more), Err)
     }

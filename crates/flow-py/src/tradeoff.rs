@@ -1,10 +1,8 @@
 //! Ladders of tolerances: measurements in, arrays and a figure out.
 
-use std::time::Duration;
-
 use flow_core::output::picture::{Options, PictureError, plot_tradeoff};
 use flow_core::run::tradeoff as core;
-use pyo3::exceptions::{PyKeyError, PyKeyboardInterrupt, PyValueError};
+use pyo3::exceptions::{PyKeyError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
 
 use crate::arrays::{Table, Vector, table, vector};
@@ -55,12 +53,10 @@ pub fn tradeoff(
     callback: Option<Py<PyAny>>,
     interval: f64,
 ) -> PyResult<Tradeoff> {
-    let interval = Duration::try_from_secs_f64(interval)
-        .map_err(|error| PyValueError::new_err(format!("interval = {interval}: {error}")))?;
+    let mut watcher = LadderWatcher::new(Watcher::new(callback, interval)?, before_run);
     let default = core::Ladder::default();
     let tolerances = tolerances.unwrap_or_else(|| default.tolerances().to_vec());
     let ladder = core::Ladder::new(&tolerances, reference_nodes).map_err(|error| raised(py, &error))?;
-    let mut watcher = LadderWatcher::new(Watcher::new(callback, interval), before_run);
     let measured = detached(py, || match core::tradeoff(&scene.core, &ladder, &mut watcher) {
         Err(core::TradeoffError::Interrupted) => Ok(None),
         other => other.map(Some),

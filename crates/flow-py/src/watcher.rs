@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use flow_core::run::tradeoff::{LadderObserver, Leg};
 use flow_core::run::{Observer, Progress};
-use pyo3::exceptions::{PyKeyboardInterrupt, PyStopIteration};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyStopIteration, PyValueError};
 use pyo3::prelude::*;
 
 /// Signals are looked for this often: often enough for a prompt Ctrl-C, too rarely to be felt.
@@ -22,9 +22,11 @@ pub struct Watcher {
 }
 
 impl Watcher {
-    /// Calls `callback` after the first step and then after every step that ends `interval` or more after the last call.
-    pub fn new(callback: Option<Py<PyAny>>, interval: Duration) -> Self {
-        Self { callback, interval, checked: Instant::now(), called: None, raised: None }
+    /// Calls `callback` after the first step and then after every step that ends `interval` seconds or more after the last call.
+    pub fn new(callback: Option<Py<PyAny>>, interval: f64) -> PyResult<Self> {
+        let interval = Duration::try_from_secs_f64(interval)
+            .map_err(|error| PyValueError::new_err(format!("interval = {interval}: {error}")))?;
+        Ok(Self { callback, interval, checked: Instant::now(), called: None, raised: None })
     }
 
     /// What was raised other than to stop the run and keep what there is, as Ctrl-C does.

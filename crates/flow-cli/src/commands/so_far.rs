@@ -11,7 +11,7 @@ use crate::print;
 /// The result at `path`, or what its run has so far, which is said.
 pub fn run_so_far(path: &Path) -> Result<Record, StorageError> {
     let SoFar { record, checkpoint } = so_far(path)?;
-    if let Some((_, time)) = checkpoint {
+    if let Some(time) = checkpoint {
         print::talk(&format!(
             "note: the run to {} is not over; this is its newest checkpoint, at t = {time:.6e} (if nobody runs it any more, \
              `curveflow resume` goes on)",

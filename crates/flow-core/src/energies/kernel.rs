@@ -117,10 +117,11 @@ fn cut(squares: &[f64], largest_square: f64, values: &mut [f64]) {
 /// The squared distance beyond which a kernel and its derivative stay below rounding; infinite if there is none
 /// near `square`.
 fn end_of_support(kernel: &Expression, first: &Expression, square: f64) -> f64 {
-    let octaves = |k: i32| f64::from(k) / f64::from(LOOKS * PER_OCTAVE);
-    let tried = |k: i32| square * octaves(k).exp2();
-    let [lowest, highest] = [-OCTAVES_BELOW, OCTAVES_ABOVE].map(|octaves| octaves * LOOKS * PER_OCTAVE);
-    let squares: Vec<f64> = std::iter::once(0.0).chain((lowest..=highest).map(tried)).collect();
+    let tried = |per_octave: i32| {
+        let range = -OCTAVES_BELOW * per_octave..=OCTAVES_ABOVE * per_octave;
+        range.map(move |k| square * (f64::from(k) / f64::from(per_octave)).exp2())
+    };
+    let squares: Vec<f64> = std::iter::once(0.0).chain(tried(LOOKS * PER_OCTAVE)).collect();
     let last_above = |of: &Expression| {
         let (program, mut values) = (Program::compile(&[of]), vec![0.0; squares.len()]);
         let mut scratch = vec![0.0; program.scratch_len()];
@@ -130,10 +131,8 @@ fn end_of_support(kernel: &Expression, first: &Expression, square: f64) -> f64 {
         // What is no number is not small.
         values.iter().rposition(|value| value.is_nan() || value.abs() > bound).unwrap_or(0)
     };
-    let last = last_above(kernel).max(last_above(first)) as i32;
-    // The next one that is tried, but for what is only looked at.
-    let next = if last == 0 { lowest } else { LOOKS * (lowest + last - 1).div_euclid(LOOKS) + LOOKS };
-    if next > highest { f64::INFINITY } else { tried(next) }
+    let last = squares[last_above(kernel).max(last_above(first))];
+    tried(PER_OCTAVE).find(|tried| *tried > last).unwrap_or(f64::INFINITY)
 }
 
 #[cfg(test)]

@@ -140,9 +140,10 @@ fn initial_state(
     let nodes = layout.nodes();
     let uniform = || (0..nodes).map(|i| i as f64 / nodes as f64).collect();
     let fractions: Vec<f64> = grading.map_or_else(uniform, |grading| grading.fractions());
+    let places = if scene.curve.points().is_some() { &curve.parameter } else { &fractions };
     let mut densities = Vec::new();
     for density in &scene.density {
-        let values = density.initial.values(&fractions, &curve.parameter, scene.curve.points().is_some());
+        let values = density.initial.values(&fractions, places);
         if let Some(node) = values.iter().position(|value| !value.is_finite()) {
             return Err(SetupError::DensityNotFinite {
                 density: density.name.clone(),

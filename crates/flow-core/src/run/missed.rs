@@ -32,12 +32,12 @@ pub(super) fn missed(
     let mut worst = turning.miss(layout, state, 0, &turns, least_mean_square(0, length));
     if !scene.density.is_empty() {
         let mut places = Places::new(DENSITY_PLACES, layout.nodes(), grading);
-        let through_points = scene.curve.points().is_some();
-        let needs_parameters =
-            through_points && scene.density.iter().any(|density| density.initial.formula().is_none());
-        let parameters = if needs_parameters { curve.at(&places.fractions)?.parameter } else { Vec::new() };
+        let has_lists = scene.density.iter().any(|density| density.initial.formula().is_none());
+        let belong_to_points = has_lists && scene.curve.points().is_some();
+        let there = belong_to_points.then(|| curve.at(&places.fractions)).transpose()?;
         for (index, density) in scene.density.iter().enumerate() {
-            let values = density.initial.values(&places.fractions, &parameters, through_points);
+            let of_lists = there.as_ref().map_or(&places.fractions, |curve| &curve.parameter);
+            let values = density.initial.values(&places.fractions, of_lists);
             let masses: Vec<f64> = values.iter().map(|rho| rho * length).collect();
             let floor = least_mean_square(1 + index, length);
             worst = f64::max(worst, places.miss(layout, state, 1 + index, &masses, floor));

@@ -149,7 +149,7 @@ impl Exponential {
         let nodes = &self.nodes[..points];
         let (weights, mut polynomial) = (weights_at_end(nodes), polynomial(nodes));
         let terms = self.substitution.terms(points + 1);
-        self.substitution.take_to_theta(std::iter::once(&mut polynomial));
+        self.substitution.take_to_theta(&mut polynomial);
         Correction { points, weights, terms, polynomial }
     }
 

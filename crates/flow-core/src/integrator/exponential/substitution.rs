@@ -92,14 +92,14 @@ impl Substitution {
     /// The Lagrange polynomials of `nodes`, values of u, as polynomials in θ.
     pub fn lagrange_basis(&self, nodes: &[f64]) -> [Coefficients; MOST_MOMENTS] {
         let mut basis = lagrange_basis(nodes);
-        self.take_to_theta(basis[..nodes.len()].iter_mut());
+        basis[..nodes.len()].iter_mut().for_each(|polynomial| self.take_to_theta(polynomial));
         basis
     }
 
-    /// Makes polynomials in θ of `polynomials` in u.
-    pub fn take_to_theta<'a>(&self, polynomials: impl Iterator<Item = &'a mut Coefficients>) {
+    /// Makes a polynomial in θ of one in u.
+    pub fn take_to_theta(&self, polynomial: &mut Coefficients) {
         if self.clock.run != 0.0 {
-            polynomials.for_each(|polynomial| substitute(&self.powers[..self.terms], polynomial));
+            substitute(&self.powers[..self.terms], polynomial);
         }
     }
 }
@@ -142,7 +142,7 @@ mod tests {
     }
 
     fn in_theta(substitution: &Substitution, mut polynomial: Coefficients) -> Coefficients {
-        substitution.take_to_theta([&mut polynomial].into_iter());
+        substitution.take_to_theta(&mut polynomial);
         polynomial
     }
 

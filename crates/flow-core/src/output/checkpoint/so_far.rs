@@ -1,7 +1,7 @@
 //! What there is of a run: its result, or until there is one what its newest checkpoint holds.
 
 use std::io::ErrorKind;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::pair::Pair;
 use crate::output::{Operation, StorageError, hdf5_file};
@@ -12,8 +12,8 @@ use crate::run::Record;
 pub struct SoFar {
     /// The result, or what a run that goes on, or was stopped, had at its newest checkpoint.
     pub record: Record,
-    /// That checkpoint, and its time; none if it is a result.
-    pub checkpoint: Option<(PathBuf, f64)>,
+    /// Time of that checkpoint; none if it is a result.
+    pub checkpoint: Option<f64>,
 }
 
 /// Reads the result file `path`; if there is none, the newest checkpoint beside it, whose run may go on meanwhile.
@@ -28,8 +28,7 @@ pub fn so_far(path: &Path) -> Result<SoFar, StorageError> {
             None => Ok(SoFar { record: hdf5_file::read(path)?, checkpoint: None }),
             Some(found) => {
                 let mut simulation = found.checkpoint.simulation(&found.path)?;
-                let time = simulation.time();
-                Ok(SoFar { record: simulation.record(), checkpoint: Some((found.path, time)) })
+                Ok(SoFar { record: simulation.record(), checkpoint: Some(simulation.time()) })
             }
         },
         Err(error) => Err(error),

@@ -24,15 +24,16 @@ pub enum Profile {
 }
 
 impl Profile {
-    /// Values at `fractions` of the arc length, where the parameter of the curve, φ/2π, is `parameters`.
+    /// Values at `fractions` of the arc length. They are at the `places` of a list: on a curve through points the parameters φ/2π, else
+    /// the fractions again.
     ///
     /// # Panics
     /// If it is a formula of more than one variable.
     #[must_use]
-    pub fn values(&self, fractions: &[f64], parameters: &[f64], through_points: bool) -> Vec<f64> {
+    pub fn values(&self, fractions: &[f64], places: &[f64]) -> Vec<f64> {
         match self {
             Self::Formula(formula) => formula.values(fractions),
-            Self::Values(values) => interpolated(values, if through_points { parameters } else { fractions }),
+            Self::Values(values) => interpolated(values, places),
         }
     }
 
@@ -105,8 +106,8 @@ mod tests {
                 Profile::Values((0..count).map(|i| wave(f64::from(i) / f64::from(count))).collect());
             let places: Vec<f64> = (0..40).map(|i| f64::from(i) / 40.0).collect();
             let elsewhere: Vec<f64> = places.iter().map(|s| s * s).collect();
-            for (through_points, at) in [(false, &places), (true, &elsewhere)] {
-                let values = profile.values(&places, &elsewhere, through_points);
+            for at in [&places, &elsewhere] {
+                let values = profile.values(&places, at);
                 for (value, place) in values.iter().zip(at) {
                     assert!((value - wave(*place)).abs() < 1e-12, "{count}: {value} at {place}");
                 }

@@ -18,7 +18,8 @@ pub struct Time {
     /// Simulated time at which the run ends at the latest, > 0.
     #[schemars(transform = Within(Bound::Positive))]
     pub end: f64,
-    /// Whether to stop before `end` once the flow is at rest: a metastable state counts if its creep, as it is, would lose less than the tolerance until `end`. True unless given.
+    /// Whether to stop before `end` once the flow is at rest: a metastable state counts if its creep, as it is, would lose less than
+    /// the tolerance until `end`. True unless given.
     #[schemars(default = "stops_at_equilibrium")]
     pub stop_at_equilibrium: bool,
     /// At rest means: the energy still to be lost, judged by the dissipation, is at most this fraction of the
