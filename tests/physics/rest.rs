@@ -40,3 +40,25 @@ fn a_stiff_penalty_on_the_length_is_not_all_there_is() {
         assert_close(last(&record).energy, energy, 1e-4);
     }
 }
+
+/// On nodes that follow the curve what each remap gives back is lost again until the next one, and steps are as short as rounding makes
+/// them: neither goes on for ever.
+#[test]
+fn nodes_that_follow_the_curve_come_to_rest() {
+    for (scene, tolerance, energy, most_steps) in
+        [("three_fold", "1e-2", 3.741_577, 1000), ("three_fold_sharp", "1e-3", 4.385_69, 3000)]
+    {
+        let record = run(&shipped(
+            scene,
+            &[
+                ("flow.gauge", "graded"),
+                ("accuracy.tolerance", tolerance),
+                ("time.end", "1e8"),
+                ("time.stop_at_equilibrium", "true"),
+            ],
+        ));
+        assert_eq!(record.stop_reason, StopReason::Equilibrium);
+        assert_close(last(&record).energy, energy, 1e-5);
+        assert!(record.counters.steps < most_steps, "{scene}: {} steps", record.counters.steps);
+    }
+}

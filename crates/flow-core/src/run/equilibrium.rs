@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::standstill::Standstill;
 use crate::integrator::{ENERGY_ROUNDING, StepReport};
 
 /// Part of the energy lost so far that counts as energy scale, where the energy itself is near zero.
@@ -12,6 +13,8 @@ const PART_OF_LOSS_AT_REST: f64 = 1e-6;
 const ROUNDING: f64 = 1e-15;
 /// Steps that must agree.
 const STEPS: u32 = 5;
+/// … and that are as good as a doubling of time: rounding keeps steps short that nothing else would.
+const MANY_STEPS: u32 = 100;
 /// What a flow at rest may lose by creeping on to the end as it does, in units of what it may still lose.
 const CREEP: f64 = 100.0;
 
@@ -24,7 +27,9 @@ const CREEP: f64 = 100.0;
 /// otherwise: a fast layer hides what comes after it. A flow that creeps (a metastable state) is at rest by this measure.
 ///
 /// D counts as far as the energy falls by it: what solves leave in stiff modes dissipates, and moves nothing. Low down rounding makes the
-/// power a matter of chance, and some flows creep on: they stay at rest as long as the mean rate since then would not lose more either.
+/// power a matter of chance, and some flows creep on: they stay at rest as long as the mean rate since then would not lose more either,
+/// which, over many steps, is as good as a doubling of time. What steps lose on nodes that follow the curve remaps may give back: see
+/// [`Standstill`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Equilibrium {
     tolerance: f64,
@@ -34,13 +39,22 @@ pub struct Equilibrium {
     /// Since when little is to come, and the energy lost since then.
     quiet: Option<(f64, f64)>,
     quiet_steps: u32,
+    remapped: Standstill,
 }
 
 impl Equilibrium {
     /// A watch from an initial energy and dissipation, for a run until `end`.
     #[must_use]
     pub fn new(tolerance: f64, energy: f64, dissipation: f64, end: f64) -> Self {
-        Self { tolerance, initial_energy: energy, end, last: (0.0, dissipation), quiet: None, quiet_steps: 0 }
+        Self {
+            tolerance,
+            initial_energy: energy,
+            end,
+            last: (0.0, dissipation),
+            quiet: None,
+            quiet_steps: 0,
+            remapped: Standstill::new(energy),
+        }
     }
 
     /// Takes an accepted step; true if the flow is at rest.
@@ -58,6 +72,9 @@ impl Equilibrium {
         let power = (last_dissipation / dissipation).ln() / (time / last_time).ln();
         let remaining = dissipation * time * to_come(power, self.end / time).max(1.0);
         let bound = self.tolerance * scale;
+        if self.remapped.reached(step, bound) {
+            return true;
+        }
         let creeps = |rate: f64| rate * (self.end - time) <= CREEP * bound;
         let stands_still = self.quiet.as_mut().is_some_and(|(since, sum)| {
             *sum += lost;
@@ -70,6 +87,7 @@ impl Equilibrium {
         self.quiet_steps = self.quiet_steps.saturating_add(1);
         let (since, _) = *self.quiet.get_or_insert((time, 0.0));
         self.quiet_steps >= STEPS && time >= 2.0 * since && creeps(dissipation)
+            || self.quiet_steps >= MANY_STEPS && stands_still
     }
 }
 
@@ -188,6 +206,19 @@ mod tests {
         let mut watch = Equilibrium::new(1e-3, 10.0, f64::MAX, 1.0);
         let (energy, dissipation) = (|t: f64| 10.0 - 3.0 * t.powf(0.25), |t: f64| 0.75 * t.powf(-0.75));
         assert_eq!(rest(&mut watch, (1e-12, 1.0, 2.5), energy, dissipation), None);
+    }
+
+    /// Steps that rounding keeps at a hundredth of the time in which anything happens would take as many as that to double it.
+    #[test]
+    fn steps_that_rounding_keeps_short_do_not_put_off_the_rest() {
+        let mut watch = Equilibrium::new(1e-5, 2.0, 2.0, 1e8);
+        let energy = |step: u32| 1.0 + 1e-13 * f64::from(step % 3);
+        let taken = (1..100_000).find(|&count| {
+            let lost = energy(count - 1) - energy(count);
+            let time = 1e3 + 0.05 * f64::from(count);
+            watch.reached(&step(time, 0.05, (energy(count), lost), 1e-4))
+        });
+        assert!(taken.is_some_and(|taken| taken < 200), "{taken:?}");
     }
 
     #[test]

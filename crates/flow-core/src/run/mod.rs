@@ -34,6 +34,7 @@ mod seconds;
 mod setup;
 mod setup_error;
 mod simulation;
+mod standstill;
 mod term_parts;
 pub mod tradeoff;
 mod warnings;

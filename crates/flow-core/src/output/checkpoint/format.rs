@@ -12,7 +12,7 @@ use crate::run::{Frame, Memory, Record, ResumeError, Scene, Simulation, StepLog}
 pub(super) const MAGIC: &[u8; 8] = b"\x89CFCKPT\n";
 const FOOTER: &[u8; 8] = b"CFCKEND\n";
 /// Changes when what the sections hold changes.
-const VERSION: u32 = 8;
+const VERSION: u32 = 9;
 const SECTIONS: usize = 4;
 
 /// A run that can go on.
