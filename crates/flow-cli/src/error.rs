@@ -25,6 +25,12 @@ pub enum CliError {
     /// The integration failed; the last good state is in the output.
     #[error("{message}; the last good state is in {}", .output.display())]
     Numerical { message: String, output: PathBuf },
+    /// The steps that the scene allows are used up; the run can go on if it allows more.
+    #[error(
+        "{message}; the run up to there is in {0}, and goes on by `curveflow run --resume -o {0}` with the scene that allows more",
+        .output.display()
+    )]
+    UsedUp { message: String, output: PathBuf },
     /// A ladder of tolerances has nothing to be measured against.
     #[error(transparent)]
     Unmeasured(TradeoffError),
@@ -60,10 +66,10 @@ pub enum CliError {
     Stopped { time: f64, output: PathBuf },
     /// The checkpoint, or the finished result, is of another scene.
     #[error(
-        "{}: the run that is there is of another scene, or of one that has been changed; if it was stopped, go on with it by \
-         `curveflow resume`, or start anew with --replace", .output.display()
+        "{}: the run that is there is of another scene{}; if it was stopped, go on with it by `curveflow resume`, or start anew with \
+         --replace", .output.display(), difference(.key.as_deref())
     )]
-    OtherScene { output: PathBuf },
+    OtherScene { output: PathBuf, key: Option<String> },
     /// The run of a result had terms that no scene holds.
     #[error(
         "{}: the run had energy terms from outside its scene (`{}`), which this program does not have, and its scene alone is another \
@@ -76,6 +82,18 @@ pub enum CliError {
     /// The file to be read is not ours, or damaged.
     #[error(transparent)]
     Unreadable(StorageError),
+}
+
+/// In what the scenes of a run and of a command differ, if that is known.
+fn difference(key: Option<&str>) -> String {
+    match key {
+        // What people would change to make a run longer.
+        Some("time.end") => ", whose `time.end` is another one (frames and steps depend on the end from the start, so that this is \
+                             another run)"
+            .to_owned(),
+        Some(key) => format!(", which differs in `{key}`"),
+        None => String::new(),
+    }
 }
 
 impl From<StorageError> for CliError {

@@ -83,6 +83,7 @@ fn exit_code(error: &CliError) -> u8 {
         CliError::Usage { .. } => 2,
         CliError::InvalidScene(_) | CliError::Unusable { .. } => 3,
         CliError::Numerical { .. }
+        | CliError::UsedUp { .. }
         | CliError::Unmeasured(_)
         | CliError::AllFailed
         | CliError::NotReached { .. } => 4,

@@ -145,3 +145,71 @@ fn a_finished_run_of_another_scene_is_not_taken_for_this_one() {
         assert!(said(&done).contains("of another scene"), "{}", said(&done));
     }
 }
+
+/// What counts is what the run is made of, wherever it stands and however it is written.
+#[test]
+fn a_scene_is_the_same_as_long_as_it_makes_the_same_run() {
+    let folder = Folder::new("same");
+    let ellipse = |ratio: f64| {
+        let points = (0..64).map(|i| std::f64::consts::TAU * f64::from(i) / 64.0);
+        let lines: Vec<String> =
+            points.map(|phi| format!("{:?} {:?}", ratio * phi.cos(), phi.sin())).collect();
+        fs::write(folder.0.join("points.txt"), lines.join("\n")).unwrap();
+    };
+    let scene =
+        "curve = { shape = 'points', file = 'points.txt' }\nenergy.bending.rigidity = 1.0\ntime.end = 0.01\n";
+    fs::write(folder.0.join("scene.toml"), scene).unwrap();
+    ellipse(2.0);
+    for (stop, name) in [(&["--max-wall", "0"][..], "stopped.h5"), (&[], "done.h5")] {
+        let resumed = |more: &[&str]| {
+            folder.call(&[&["run", "scene.toml", "-o", name, "--resume", "--max-wall", "0"], more].concat())
+        };
+        folder.call(&[&["run", "scene.toml", "-o", name], stop].concat());
+        ellipse(3.0);
+        let other = resumed(&[]);
+        assert_eq!(code(&other), 7, "{name}: {}", said(&other));
+        assert!(
+            said(&other).contains("of another scene, which differs in `curve.points`"),
+            "{}",
+            said(&other)
+        );
+        ellipse(2.0);
+        fs::write(folder.0.join("scene.toml"), format!("# commented\n{scene}\n")).unwrap();
+        for change in [&[][..], &["--set", "time.end=0.01"], &["--set", "accuracy.tolerance=1e-5"]] {
+            let same = resumed(change);
+            assert!(matches!(code(&same), 0 | 6), "{name}: {}", said(&same));
+        }
+        fs::write(folder.0.join("scene.toml"), scene).unwrap();
+    }
+}
+
+#[test]
+fn a_run_that_has_used_up_its_steps_goes_on_if_it_may_take_more() {
+    let folder = Folder::new("more-steps");
+    let run = |name: &str, more: &[&str]| {
+        folder.call(&[&["run", "scene.toml", "-o", name, "-q", "--set", "time.end=0.01"], more].concat())
+    };
+    assert_eq!(code(&run("whole.h5", &[])), 0);
+    for last in ["time.max_steps=1000", "time.max_steps="] {
+        let used_up = run("out.h5", &["--set", "time.max_steps=5"]);
+        assert_eq!(code(&used_up), 4, "{}", said(&used_up));
+        assert!(said(&used_up).contains("run --resume"), "{}", said(&used_up));
+        // Without more of them it ends as before.
+        let before = folder.record("out.h5");
+        assert_eq!(code(&folder.call(&["resume", "out.h5", "-q"])), 4);
+        assert_same(&before, &folder.record("out.h5"));
+        let fewer = run("out.h5", &["--resume", "--set", "time.max_steps=4"]);
+        assert_eq!(code(&fewer), 7);
+        assert!(said(&fewer).contains("`time.max_steps`"), "{}", said(&fewer));
+        let few = run("out.h5", &["--resume", "--set", "time.max_steps=8"]);
+        assert_eq!((code(&few), folder.record("out.h5").counters.steps), (4, 8), "{}", said(&few));
+        let resumed = ["--resume", "--set", last];
+        let rest = run("out.h5", &resumed[..if last.ends_with('=') { 1 } else { 3 }]);
+        assert_eq!(code(&rest), 0, "{}", said(&rest));
+        let (whole, resumed) = (folder.record("whole.h5"), folder.record("out.h5"));
+        assert!(whole.frames == resumed.frames && whole.steps == resumed.steps);
+        assert_ne!(resumed.scene.contains("1000"), last.ends_with('='));
+        assert_eq!(folder.names(), ["out.h5", "scene.toml", "whole.h5"]);
+        fs::remove_file(folder.0.join("out.h5")).unwrap();
+    }
+}

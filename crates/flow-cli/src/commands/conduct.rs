@@ -78,9 +78,10 @@ impl Conduct {
         if let Err(reason) = hdf5_file::write_timed(&mut ended.record, saving.pair.target(), replace) {
             return Err(unwritten(reason, &ended, &mut saving));
         }
-        let Ended { record, last, .. } = ended;
+        let Ended { record, last, goes_on, .. } = ended;
         let stopped = record.stop_reason == StopReason::Interrupted;
-        let goes_on = stopped && !saving.pair.is_of_another_run();
+        // Without a checkpoint of its own it does not.
+        let goes_on = goes_on && !saving.pair.is_of_another_run();
         let removed = if goes_on { Ok(()) } else { saving.pair.remove() };
         let seconds = began.elapsed().as_secs_f64();
         if self.json {
@@ -90,11 +91,11 @@ impl Conduct {
             say_doubts(&record);
             print::data(&output.display().to_string())?;
         }
-        if let Some(Err(error)) = last.filter(|_| stopped) {
+        if stopped && let Some(Err(error)) = last {
             return Err(error.into());
         }
         removed?;
-        outcome(record, &output)
+        outcome(record, goes_on && !matches!(last, Some(Err(_))), &output)
     }
 
     /// Says why a checkpoint is missing, each reason once.
@@ -119,12 +120,13 @@ fn unwritten(reason: StorageError, ended: &Ended, saving: &mut Saving) -> CliErr
     if saved { CliError::Unwritten { reason, output } } else { CliError::Lost(reason) }
 }
 
-fn outcome(record: Record, output: &Path) -> Result<(), CliError> {
+fn outcome(record: Record, goes_on: bool, output: &Path) -> Result<(), CliError> {
     let time = record.frames.last().map_or(0.0, |frame| frame.time);
     let output = output.to_path_buf();
     match record.stop_reason {
         StopReason::EndTime | StopReason::Equilibrium | StopReason::Contact => Ok(()),
         StopReason::Interrupted => Err(CliError::Stopped { time, output }),
+        StopReason::Failed(message) if goes_on => Err(CliError::UsedUp { message, output }),
         StopReason::Failed(message) => Err(CliError::Numerical { message, output }),
     }
 }

@@ -1,11 +1,11 @@
 //! `curveflow run SCENE`: integrate one scene and write its result file.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use flow_core::output::StorageError;
 use flow_core::output::atomic_file::check_writable;
-use flow_core::output::checkpoint::Pair;
-use flow_core::run::{Scene, Simulation};
+use flow_core::output::checkpoint::{OtherScene, Pair};
+use flow_core::run::{Record, Scene, Simulation};
 
 use super::conduct::{Conduct, Outset};
 use super::resume;
@@ -24,7 +24,8 @@ pub struct Args {
     /// Replace an existing result file, and the checkpoints of a run that was stopped.
     #[arg(long, conflicts_with = "resume")]
     pub replace: bool,
-    /// Go on where a run of the same scene was stopped; start if there was none, and do nothing if it is done.
+    /// Go on where a run of the same scene was stopped; start if there was none, and do nothing if it is done. Of the scene, only
+    /// `time.max_steps` may have changed.
     #[arg(long)]
     pub resume: bool,
     #[command(flatten)]
@@ -65,12 +66,13 @@ fn go_on(
     mut pair: Pair,
 ) -> Result<(), CliError> {
     match Standing::of(&mut pair)? {
-        Standing::Stopped(found, _) if found.checkpoint.scene.given != scene.text() => {
-            Err(CliError::OtherScene { output })
+        Standing::Stopped(mut found, _lock) => {
+            let taken = found.checkpoint.take_scene(scene);
+            taken.map_err(|OtherScene { key }| CliError::OtherScene { output, key })?;
+            resume::go_on(&args.conduct, outset, *found, pair)
         }
-        Standing::Over(record) if record.scene != scene.text() => Err(CliError::OtherScene { output }),
-        Standing::Stopped(found, _lock) => resume::go_on(&args.conduct, outset, *found, pair),
         Standing::Over(record) => {
+            check_same(&record, scene, &output)?;
             resume::already_done(&args.conduct, &without_own_terms(*record, &output)?, &output)
         }
         Standing::Nothing(_lock) => {
@@ -78,4 +80,11 @@ fn go_on(
             args.conduct.run(outset, simulation(args, scene)?, pair, false)
         }
     }
+}
+
+/// Fails if the record in the file `output` is of another scene than `scene`.
+fn check_same(record: &Record, scene: &Scene, output: &Path) -> Result<(), CliError> {
+    let other = |key| CliError::OtherScene { output: output.to_path_buf(), key };
+    let theirs = Scene::parse(&record.resolved_scene, "the scene of the result").map_err(|_| other(None))?;
+    theirs.first_difference(scene).map_or(Ok(()), |key| Err(other(Some(key))))
 }

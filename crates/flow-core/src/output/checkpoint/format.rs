@@ -37,6 +37,13 @@ pub struct SceneTexts {
     pub resolved: String,
 }
 
+/// A scene that is not that of a checkpoint.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OtherScene {
+    /// The first key that differs; none if the scene of the checkpoint cannot be read by this version.
+    pub key: Option<String>,
+}
+
 /// The bytes of the checkpoint of `simulation`.
 #[must_use]
 pub fn encode(simulation: &Simulation) -> Vec<u8> {
@@ -119,6 +126,24 @@ fn damaged(path: &Path, item: &str, source: impl Into<Box<dyn Error + Send + Syn
 }
 
 impl Checkpoint {
+    /// Goes on as a run of `scene`, if that would have come here too: it holds the same as the scene of the checkpoint, but may allow
+    /// another number of steps (`time.max_steps`), not below those so far.
+    ///
+    /// # Errors
+    /// [`OtherScene`], with the first key that differs.
+    pub fn take_scene(&mut self, scene: &Scene) -> Result<(), OtherScene> {
+        let own = Scene::parse(&self.scene.resolved, "the scene of the checkpoint");
+        let mut own = own.map_err(|_| OtherScene { key: None })?;
+        let Some(key) = own.first_difference(scene) else { return Ok(()) };
+        own.time.max_steps = scene.time.max_steps;
+        let allowed = scene.time.max_steps.is_none_or(|most| most >= self.memory.steps());
+        if !allowed || own.first_difference(scene).is_some() {
+            return Err(OtherScene { key: Some(key) });
+        }
+        self.scene = SceneTexts { given: scene.text().to_owned(), resolved: scene.to_toml() };
+        Ok(())
+    }
+
     /// The simulation that was saved; `path` is for messages.
     ///
     /// # Errors

@@ -9,7 +9,7 @@ mod saving;
 mod so_far;
 
 pub use file::{read, write};
-pub use format::{Checkpoint, SceneTexts, decode, encode};
+pub use format::{Checkpoint, OtherScene, SceneTexts, decode, encode};
 pub use lock::Lock;
 pub use pair::{Found, Pair};
 pub use saving::{Ended, Saving, run_saving};

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use super::format::encode_ended;
 use super::pair::Pair;
 use crate::output::StorageError;
-use crate::run::{Memory, Observer, Record, Simulation, Spending, StopReason};
+use crate::run::{Memory, Observer, Record, Simulation, Spending};
 
 /// Saving takes at most this part of the time.
 const SHARE: u32 = 20;
@@ -27,6 +27,8 @@ pub struct Ended {
     pub record: Record,
     /// What it takes to go on, or to make the record again.
     memory: Memory,
+    /// Whether it is not over: it was stopped, or has used up its steps, and goes on from its checkpoint.
+    pub goes_on: bool,
     /// Whether a checkpoint of its end was written; none if it is over and was too short to have any.
     pub last: Option<Result<(), StorageError>>,
 }
@@ -42,7 +44,7 @@ impl Ended {
 }
 
 /// Takes the steps of `simulation` to its end, or until `observer` stops it, with a checkpoint now and then. There is one of the end
-/// too if the run was stopped, or took longer than the time between two: making its result may take more memory than there is. The
+/// too if the run can go on, or took longer than the time between two: making its result may take more memory than there is. The
 /// checkpoints stay: remove them once the record is safe.
 pub fn run_saving(mut simulation: Simulation, observer: &mut dyn Observer, saving: &mut Saving) -> Ended {
     let started = Instant::now();
@@ -58,12 +60,12 @@ pub fn run_saving(mut simulation: Simulation, observer: &mut dyn Observer, savin
             saved = Instant::now();
         }
     }
-    let stopped = simulation.stop_reason() == Some(&StopReason::Interrupted);
+    let goes_on = simulation.can_go_on();
     let clock = Instant::now();
-    let last = (stopped || started.elapsed() >= saving.interval).then(|| saving.pair.write(&simulation));
+    let last = (goes_on || started.elapsed() >= saving.interval).then(|| saving.pair.write(&simulation));
     output += clock.elapsed();
     let memory = simulation.memory();
     let mut record = simulation.into_record();
     record.seconds[Spending::Output] += output.as_secs_f64();
-    Ended { record, memory, last }
+    Ended { record, memory, goes_on, last }
 }

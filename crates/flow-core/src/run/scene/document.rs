@@ -170,7 +170,7 @@ impl Scene {
     }
 
     /// Whether all values, which is all but the text, are those of `other`.
-    fn has_values_of(&self, other: &Self) -> bool {
+    pub(super) fn has_values_of(&self, other: &Self) -> bool {
         let Self { title, curve, density, energy, flow, time, accuracy, output, text: _, as_checked: _ } =
             self;
         (title, curve, density, energy) == (&other.title, &other.curve, &other.density, &other.energy)

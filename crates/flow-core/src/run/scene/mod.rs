@@ -26,6 +26,7 @@ mod choice;
 mod count;
 mod curve;
 mod density;
+mod difference;
 mod document;
 mod energy;
 mod entry;

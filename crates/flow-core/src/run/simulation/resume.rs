@@ -10,7 +10,7 @@ use super::discretised::Discretised;
 use super::frame::Start;
 use super::saving::FrameRoom;
 use crate::energies::EnergyTerm;
-use crate::integrator::{self, Counters, Multistep, Problem, Rest, Stepper, Stopwatch};
+use crate::integrator::{self, Counters, IntegrationError, Multistep, Problem, Rest, Stepper, Stopwatch};
 use crate::run::adaptation::Adaptation;
 use crate::run::equilibrium::Equilibrium;
 use crate::run::failure::Failure;
@@ -97,7 +97,8 @@ fn is_sequence(times: impl Iterator<Item = f64> + Clone) -> bool {
 }
 
 impl Simulation {
-    /// What it takes to go on from the last accepted state. A run that was interrupted goes on from there, one that is over stays so.
+    /// What it takes to go on from the last accepted state. A run that was interrupted, or has used up its steps, goes on from
+    /// there; one that is over stays so.
     #[must_use]
     pub fn memory(&self) -> Memory {
         Memory {
@@ -114,7 +115,7 @@ impl Simulation {
             mesh: self.on.mesh.clone(),
             remapped_at: self.on.remapped_at,
             switches: self.switches,
-            stopped: self.stopped.clone().filter(|reason| *reason != StopReason::Interrupted),
+            stopped: self.stopped.clone().filter(|_| !self.can_go_on()),
         }
     }
 
@@ -128,6 +129,15 @@ impl Simulation {
     #[must_use]
     pub fn stop_reason(&self) -> Option<&StopReason> {
         self.stopped.as_ref()
+    }
+
+    /// Whether one that has stopped goes on if it is resumed: it was interrupted, or has used up `time.max_steps`, of which a resumed
+    /// run may have more.
+    #[must_use]
+    pub fn can_go_on(&self) -> bool {
+        let used_up =
+            |failure| matches!(failure, &Failure::Integration(IntegrationError::TooManySteps { .. }));
+        self.stopped == Some(StopReason::Interrupted) || self.failure.as_ref().is_some_and(used_up)
     }
 
     /// Why it failed, if it did.
