@@ -231,8 +231,8 @@ def _of_bytes(data: bytes) -> Result:
 def open(path: str | os.PathLike[str]) -> Result:
     """Read a result file, written by :meth:`Result.save` or by the command ``curveflow run``.
 
-    While a run to that file goes on, or once it was stopped, there is none yet: then this is what its newest checkpoint holds, with
-    the status ``"interrupted"``.
+    While a run to that file goes on, or after it was killed, there is none yet, or one of where it was stopped before: then this is
+    what its newest checkpoint holds, with the status ``"interrupted"``. A result that another run is to replace is that result.
 
     Raises:
         StorageError: the file cannot be read, is none of ours, or is damaged.

@@ -216,6 +216,6 @@ fn damage_is_recognised() {
     }
     let mut longer = bytes.clone();
     longer.push(0);
-    assert!(matches!(decode(&longer, path), Err(StorageError::Damaged { .. })));
+    assert!(matches!(decode(&longer, path), Err(StorageError::DamagedCheckpoint { .. })));
     println!("{} truncations, {} flips", bytes.len(), 8 * bytes.len());
 }

@@ -113,11 +113,17 @@ impl Conduct {
     }
 }
 
-/// What to say of a result that could not be written: whether its run is saved, or can be now.
+/// What to say of a result that could not be written: whether its run is saved, or can be now, or was on the way.
 fn unwritten(reason: StorageError, ended: &Ended, saving: &mut Saving) -> CliError {
-    let saved = matches!(ended.last, Some(Ok(()))) || ended.save(&mut saving.pair).is_ok();
+    let saved =
+        matches!(ended.last, Some(Ok(()))) || ended.save(&mut saving.pair).is_ok() || saving.pair.holds_own();
     let output = saving.pair.result().to_path_buf();
-    if saved { CliError::Unwritten { reason, output } } else { CliError::Lost(reason) }
+    match reason {
+        // To replace the file that has come there meanwhile is to throw the run away.
+        StorageError::Exists { path } if saved => StorageError::InTheWay { path }.into(),
+        reason if saved => CliError::Unwritten { reason, output },
+        reason => CliError::Lost(reason),
+    }
 }
 
 fn outcome(record: Record, goes_on: bool, output: &Path) -> Result<(), CliError> {

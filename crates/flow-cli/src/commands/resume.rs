@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use flow_core::output::StorageError;
 use flow_core::output::atomic_file::check_writable;
-use flow_core::output::checkpoint::{Found, Pair};
-use flow_core::output::{StorageError, hdf5_file};
+use flow_core::output::checkpoint::{Found, Pair, check_way};
 use flow_core::run::{Record, StopReason};
 
 use super::conduct::{Conduct, Outset, say_doubts};
@@ -36,7 +36,7 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
 
 /// Goes on from what was found.
 pub fn go_on(conduct: &Conduct, outset: Outset, found: Found, pair: Pair) -> Result<(), CliError> {
-    check_way(pair.result())?;
+    check_way(&pair, &found.checkpoint)?;
     check_writable(pair.result(), true)?;
     if let Some(damaged) = &found.damaged {
         print::talk(&format!(
@@ -54,14 +54,6 @@ pub fn go_on(conduct: &Conduct, outset: Outset, found: Found, pair: Pair) -> Res
     }
     let simulation = found.checkpoint.simulation(&found.path)?;
     conduct.run(outset, simulation, pair, true)
-}
-
-/// Fails if something else than a result has come to where that of the run belongs: nobody has asked to replace it.
-fn check_way(path: &Path) -> Result<(), StorageError> {
-    match hdf5_file::is_hdf5(path) {
-        Ok(false) => Err(StorageError::InTheWay { path: path.to_path_buf() }),
-        _ => Ok(()), // if it is not there, or what else is wrong with it is for others to say
-    }
 }
 
 /// Says how the run of `record` ended, without a checkpoint to go on from.

@@ -25,7 +25,10 @@ pub fn check_writable(path: &Path, replace: bool) -> Result<(), StorageError> {
     Target::new(path, replace)?.temporary().map(drop)
 }
 
-fn write_with(
+/// As [`write()`], with what `content` writes.
+/// # Errors
+/// As for [`write()`].
+pub(super) fn write_with(
     path: &Path,
     replace: bool,
     content: impl FnOnce(&mut File) -> io::Result<()>,

@@ -75,9 +75,13 @@ pub enum StorageError {
     #[error("{}: is an HDF5 file, but {}; give a result file of Curveflow", .path.display(), origin(.found.as_deref(), expected))]
     Foreign { path: PathBuf, found: Option<String>, expected: &'static str },
     /// The file is no checkpoint.
-    #[error("{}: is not a checkpoint of this version of Curveflow; run the scene anew, or use the version that wrote it",
-            .path.display())]
+    #[error("{}: is not a checkpoint of this version of Curveflow; use the version that wrote it, or start the run anew (`run \
+             --replace`)", .path.display())]
     NotACheckpoint { path: PathBuf },
+    /// The checkpoint is truncated, or a checksum does not fit.
+    #[error("{}: is truncated or damaged at `{item}`; restore it from a copy, or start the run anew (`run --replace`)",
+            .path.display())]
+    DamagedCheckpoint { path: PathBuf, item: String, source: Box<dyn Error + Send + Sync> },
     /// The checkpoint is whole, but its scene or its state cannot be used.
     #[error("{}: {reason}", .path.display())]
     ForeignCheckpoint { path: PathBuf, reason: String },
@@ -86,7 +90,7 @@ pub enum StorageError {
              choose another name, or replace it (--replace, replace=True)", .path.display())]
     Unfinished { path: PathBuf, steps: u64, time: f64 },
     /// Something else has come to where a run that goes on would write its result.
-    #[error("{}: is no result file, though checkpoints of a run lie beside it; move it away, then go on with `resume`",
+    #[error("{}: is not a result of the run whose checkpoints lie beside it; move it away, then go on with `resume`",
             .path.display())]
     InTheWay { path: PathBuf },
     /// There is nothing to go on from.
@@ -112,6 +116,7 @@ impl StorageError {
                 | Self::Foreign { .. }
                 | Self::Damaged { .. }
                 | Self::NotACheckpoint { .. }
+                | Self::DamagedCheckpoint { .. }
                 | Self::ForeignCheckpoint { .. }
                 | Self::NoCheckpoint { .. }
         )

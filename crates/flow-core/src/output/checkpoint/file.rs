@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use super::format::{Checkpoint, MAGIC, decode, encode};
+use super::encoding::Content;
+use super::format::{Checkpoint, MAGIC, decode};
 use crate::output::signature::begins_with;
 use crate::output::{Operation, StorageError, atomic_file};
 use crate::run::Simulation;
@@ -26,7 +27,9 @@ pub fn read(path: &Path) -> Result<Checkpoint, StorageError> {
 /// # Errors
 /// [`StorageError`]; the file is then as it was.
 pub fn write(simulation: &Simulation, path: &Path, replace: bool) -> Result<(), StorageError> {
-    atomic_file::write(path, &encode(simulation), replace || is_checkpoint(path))
+    let memory = simulation.memory();
+    let content = Content::of(simulation, &memory, None);
+    atomic_file::write_with(path, replace || is_checkpoint(path), |file| content.write_to(file))
 }
 
 fn is_checkpoint(path: &Path) -> bool {

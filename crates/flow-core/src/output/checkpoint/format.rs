@@ -5,15 +5,16 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::identity::Identity;
 use crate::energies::EnergyTerm;
 use crate::output::StorageError;
-use crate::run::{Frame, Memory, Record, ResumeError, Scene, Simulation, StepLog};
+use crate::run::{Frame, Memory, ResumeError, Scene, Simulation, StepLog};
 
 pub(super) const MAGIC: &[u8; 8] = b"\x89CFCKPT\n";
-const FOOTER: &[u8; 8] = b"CFCKEND\n";
+pub(super) const FOOTER: &[u8; 8] = b"CFCKEND\n";
 /// Changes when what the sections hold changes.
-const VERSION: u32 = 9;
-const SECTIONS: usize = 4;
+pub(super) const VERSION: u32 = 9;
+const SECTIONS: usize = 5;
 
 /// A run that can go on.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +27,8 @@ pub struct Checkpoint {
     pub frames: Vec<Frame>,
     /// Log of the steps so far.
     pub steps: StepLog,
+    /// The result that the run may replace, if it was told so when it began.
+    pub replaces: Option<Identity>,
 }
 
 /// The scene of a run.
@@ -44,46 +47,10 @@ pub struct OtherScene {
     pub key: Option<String>,
 }
 
-/// The bytes of the checkpoint of `simulation`.
-#[must_use]
-pub fn encode(simulation: &Simulation) -> Vec<u8> {
-    to_sections(simulation.scene_texts(), &simulation.memory(), simulation.frames(), simulation.steps())
-}
-
-/// The bytes of the checkpoint of a run that is over and has become `record`. Its frames are all on the largest number of nodes, as
-/// those of a record that is made from the checkpoint will be anyway.
-pub(super) fn encode_ended(record: &Record, memory: &Memory) -> Vec<u8> {
-    to_sections((&record.scene, &record.resolved_scene), memory, &record.frames, &record.steps)
-}
-
-fn to_sections(
-    (given, resolved): (&str, &str),
-    memory: &Memory,
-    frames: &[Frame],
-    steps: &StepLog,
-) -> Vec<u8> {
-    let scene = SceneTexts { given: given.to_owned(), resolved: resolved.to_owned() };
-    let mut bytes = MAGIC.to_vec();
-    bytes.extend(VERSION.to_le_bytes());
-    let sections =
-        [to_bytes(&scene), to_bytes(memory), to_bytes(&frames[..memory.frames()]), to_bytes(steps)];
-    for section in sections {
-        bytes.extend((section.len() as u64).to_le_bytes());
-        bytes.extend(crc32fast::hash(&section).to_le_bytes());
-        bytes.extend(section);
-    }
-    bytes.extend(FOOTER);
-    bytes
-}
-
-fn to_bytes<T: Serialize + ?Sized>(value: &T) -> Vec<u8> {
-    postcard::to_stdvec(value).expect("texts, numbers and lists of known length are always encoded")
-}
-
 /// The checkpoint that `bytes`, read from `path`, hold.
 ///
 /// # Errors
-/// [`StorageError::NotACheckpoint`] if they are something else, [`StorageError::Damaged`] if a checksum does not fit.
+/// [`StorageError::NotACheckpoint`] if they are something else, [`StorageError::DamagedCheckpoint`] if a checksum does not fit.
 pub fn decode(bytes: &[u8], path: &Path) -> Result<Checkpoint, StorageError> {
     let head = MAGIC.len() + size_of::<u32>();
     let is_ours =
@@ -93,18 +60,19 @@ pub fn decode(bytes: &[u8], path: &Path) -> Result<Checkpoint, StorageError> {
     }
     let mut rest = &bytes[head..];
     let mut sections: [&[u8]; SECTIONS] = [&[]; SECTIONS];
-    for (section, name) in sections.iter_mut().zip(["scene", "memory", "frames", "steps"]) {
+    for (section, name) in sections.iter_mut().zip(["scene", "memory", "frames", "steps", "replaces"]) {
         *section = take_section(&mut rest).ok_or_else(|| damaged(path, name, "the checksum does not fit"))?;
     }
     if rest != FOOTER {
         return Err(damaged(path, "the end", "there is something else"));
     }
-    let [scene, memory, frames, steps] = sections;
+    let [scene, memory, frames, steps, replaces] = sections;
     Ok(Checkpoint {
         scene: from_bytes(scene, path, "scene")?,
         memory: from_bytes(memory, path, "memory")?,
         frames: from_bytes(frames, path, "frames")?,
         steps: from_bytes(steps, path, "steps")?,
+        replaces: from_bytes(replaces, path, "replaces")?,
     })
 }
 
@@ -122,7 +90,7 @@ fn from_bytes<'a, T: Deserialize<'a>>(section: &'a [u8], path: &Path, name: &str
 }
 
 fn damaged(path: &Path, item: &str, source: impl Into<Box<dyn Error + Send + Sync>>) -> StorageError {
-    StorageError::Damaged { path: path.to_path_buf(), item: format!("`{item}`"), source: source.into() }
+    StorageError::DamagedCheckpoint { path: path.to_path_buf(), item: item.to_owned(), source: source.into() }
 }
 
 impl Checkpoint {

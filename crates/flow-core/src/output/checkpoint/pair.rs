@@ -4,11 +4,13 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use super::encoding::Content;
 use super::file::read;
-use super::format::{Checkpoint, encode};
+use super::format::Checkpoint;
+use super::identity::Identity;
 use crate::output::links::{beside, followed};
 use crate::output::{Operation, StorageError, atomic_file};
-use crate::run::Simulation;
+use crate::run::{Memory, Record, Simulation};
 
 const SUFFIXES: [&str; 2] = [".checkpoint-a", ".checkpoint-b"];
 
@@ -23,6 +25,8 @@ pub struct Pair {
     next: usize,
     /// Whether the files, if any, are those of a run that this one replaces.
     superseded: bool,
+    /// The result that the run may replace.
+    replaces: Option<Identity>,
 }
 
 /// The newest checkpoint that is whole.
@@ -41,7 +45,8 @@ impl Pair {
     #[must_use]
     pub fn beside(result: &Path) -> Self {
         let target = followed(result);
-        Self { result: result.to_path_buf(), paths: files(&target), target, next: 0, superseded: false }
+        let (result, paths) = (result.to_path_buf(), files(&target));
+        Self { result, paths, target, next: 0, superseded: false, replaces: None }
     }
 
     /// The newest checkpoint, if there is any; the next one is then written to the other file.
@@ -66,6 +71,7 @@ impl Pair {
         match (newest, damaged) {
             (Some((index, checkpoint)), damaged) => {
                 self.next = 1 - index;
+                self.replaces = checkpoint.replaces;
                 Ok(Some(Found { checkpoint, path: self.paths[index].clone(), damaged }))
             }
             (None, Some(error)) => Err(error),
@@ -84,6 +90,8 @@ impl Pair {
             if matches!(self.newest(), Ok(Some(_))) {
                 self.next = 1 - self.next;
             }
+            // Whoever goes on with the new run may replace this file too, and no other one.
+            self.replaces = Identity::of(&self.target).ok();
             return Ok(());
         }
         match self.newest()? {
@@ -101,16 +109,25 @@ impl Pair {
     /// # Errors
     /// [`StorageError`]; the newest of the files is then as it was.
     pub fn write(&mut self, simulation: &Simulation) -> Result<(), StorageError> {
-        self.write_bytes(&encode(simulation))
+        let memory = simulation.memory();
+        self.write_content(&Content::of(simulation, &memory, self.replaces))
+    }
+
+    /// Saves the run that is over and has become `record`.
+    ///
+    /// # Errors
+    /// As for [`Pair::write`].
+    pub(super) fn write_ended(&mut self, record: &Record, memory: &Memory) -> Result<(), StorageError> {
+        self.write_content(&Content::of_ended(record, memory, self.replaces))
     }
 
     /// Writes the older of the two files.
-    pub(super) fn write_bytes(&mut self, bytes: &[u8]) -> Result<(), StorageError> {
+    fn write_content(&mut self, content: &Content<'_>) -> Result<(), StorageError> {
         if self.superseded {
             // Of two files the one with more steps counts: none of the run before may outlive the first of this one.
             remove(&self.paths[1 - self.next])?;
         }
-        atomic_file::write(&self.paths[self.next], bytes, true)?;
+        atomic_file::write_with(&self.paths[self.next], true, |file| content.write_to(file))?;
         self.next = 1 - self.next;
         self.superseded = false;
         Ok(())
@@ -128,6 +145,12 @@ impl Pair {
     #[must_use]
     pub fn is_of_another_run(&self) -> bool {
         self.superseded
+    }
+
+    /// Whether a checkpoint of the run itself is there.
+    #[must_use]
+    pub fn holds_own(&self) -> bool {
+        !self.superseded && matches!(self.clone().newest(), Ok(Some(_)))
     }
 
     /// The file that the result is to be written to: where its name led when the lock was taken, also if that is a link to another

@@ -2,7 +2,6 @@
 
 use std::time::{Duration, Instant};
 
-use super::format::encode_ended;
 use super::pair::Pair;
 use crate::output::StorageError;
 use crate::run::{Memory, Observer, Record, Simulation, Spending};
@@ -39,7 +38,7 @@ impl Ended {
     /// # Errors
     /// As for [`Pair::write`].
     pub fn save(&self, pair: &mut Pair) -> Result<(), StorageError> {
-        pair.write_bytes(&encode_ended(&self.record, &self.memory))
+        pair.write_ended(&self.record, &self.memory)
     }
 }
 

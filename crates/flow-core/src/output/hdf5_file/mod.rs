@@ -6,11 +6,12 @@ mod heaps;
 mod layout;
 mod meanings;
 mod numbers;
+mod opening;
 mod provenance;
 mod reader;
 mod seconds;
 mod writer;
 
 pub use layout::CONVENTIONS;
-pub use reader::{is_hdf5, read};
+pub use reader::read;
 pub use writer::{to_bytes, write, write_timed};

@@ -1,36 +1,20 @@
 //! Reads a result file back into a [`Record`], recognising files that are foreign, truncated or damaged.
 
-use std::fs;
-use std::io::{self, Read};
 use std::path::Path;
 
 use hdf5_metno::types::VarLenUnicode;
 use hdf5_metno::{Error, File, Group, H5Type, Result as Hdf5Result};
 
 use super::bounds::{Bounds, check_links};
-use super::heaps::{broken_heap, has_wide_lengths};
 use super::layout::{
     CAUSES, CONVENTIONS, COUNTERS, FRAME_VALUES, NAMED_FIELDS, NAMED_VALUES, NODAL_FIELDS, STEP_VALUES,
 };
 use super::numbers;
+use super::opening::{Opened, open};
 use super::provenance::{OWN_TERMS, checksum, rejections_name};
 use super::seconds;
-use crate::output::signature::begins_with;
-use crate::output::{Operation, StorageError};
+use crate::output::StorageError;
 use crate::run::{Counters, Frame, Provenance, Record, Rejections, Seconds, StepLog, StopReason};
-
-/// The first bytes of every HDF5 file.
-const SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
-
-/// Bytes in which every HDF5 file says how long its lengths are.
-const FIRST_BLOCK: usize = 48;
-
-/// Whether the file `path` is HDF5, by its first bytes.
-/// # Errors
-/// What the system says if it cannot be opened or read.
-pub fn is_hdf5(path: &Path) -> io::Result<bool> {
-    begins_with(path, &SIGNATURE)
-}
 
 /// Reads the result file `path`.
 /// # Errors
@@ -43,46 +27,13 @@ pub fn read(path: &Path) -> Result<Record, StorageError> {
         source: Box::new(source),
     };
     let foreign = |found| StorageError::Foreign { path: path.to_path_buf(), found, expected: CONVENTIONS };
-    let bounds = Bounds::of(check_bytes(path, &damaged, &foreign)?);
-    if path.to_str().is_none() {
-        return Err(StorageError::NotUtf8 { path: path.to_path_buf() });
-    }
-    // The library reads the whole file at once and takes no lock on it.
-    let mut options = File::with_options();
-    let file = options.with_fapl(|plist| plist.core_filebacked(false)).open(path);
-    let file = file.map_err(|source| damaged("its first block", source))?;
-    match conventions(&file).map_err(|source| damaged("its attributes", source))? {
+    let (file, bytes) = open(path, &damaged, &foreign)?;
+    let bounds = Bounds::of(bytes);
+    match conventions(&file.content).map_err(|source| damaged("its attributes", source))? {
         Some(found) if found == CONVENTIONS => {}
         found => return Err(foreign(found)),
     }
     Content { file, bounds }.record().map_err(|(item, source)| damaged(&item, source))
-}
-
-/// Length of the file in bytes, if the library may be given it.
-fn check_bytes(
-    path: &Path,
-    damaged: &impl Fn(&str, Error) -> StorageError,
-    foreign: &impl Fn(Option<String>) -> StorageError,
-) -> Result<u64, StorageError> {
-    let failed = |reason| StorageError::system(path, Operation::Read, reason);
-    // Asked before opening: opening a pipe would wait for its other end.
-    if !fs::metadata(path).map_err(failed)?.is_file() {
-        return Err(StorageError::NotAFile { path: path.to_path_buf() });
-    }
-    let mut file = fs::File::open(path).map_err(failed)?;
-    let mut bytes = Vec::new();
-    file.by_ref().take(SIGNATURE.len() as u64).read_to_end(&mut bytes).map_err(failed)?;
-    if bytes != SIGNATURE {
-        return Err(StorageError::NotHdf5 { path: path.to_path_buf() });
-    }
-    file.read_to_end(&mut bytes).map_err(failed)?;
-    if bytes.len() > FIRST_BLOCK && !has_wide_lengths(&bytes) {
-        return Err(foreign(None));
-    }
-    match broken_heap(&bytes) {
-        Some(place) => Err(damaged("its texts", format!("the heap at byte {place} does not add up").into())),
-        None => Ok(bytes.len() as u64),
-    }
 }
 
 /// What could not be read, and why.
@@ -90,7 +41,7 @@ type Failure = (String, Error);
 
 /// An open result file.
 struct Content {
-    file: File,
+    file: Opened,
     bounds: Bounds,
 }
 
@@ -119,7 +70,7 @@ impl Content {
         if !record.own_terms.iter().all(|name| record.energy_terms.contains(name)) {
             return Err((OWN_TERMS.to_owned(), "it names a term that the run does not have".into()));
         }
-        record.seconds = seconds::read(&self.file, &record.energy_terms)?;
+        record.seconds = seconds::read(&self.file.content, &record.energy_terms)?;
         record.frames = self.frames(&record)?;
         // Files from before this checksum do not have it.
         if self.has_attribute(numbers::NAME)?
@@ -134,9 +85,9 @@ impl Content {
     fn check_groups(&self) -> Result<(), Failure> {
         let named = NAMED_VALUES.iter().map(|list| list.group);
         let named = named.chain(NAMED_FIELDS.iter().map(|list| list.group));
-        let others = ["steps", "steps/rejections"].into_iter().chain(seconds::groups(&self.file));
+        let others = ["steps", "steps/rejections"].into_iter().chain(seconds::groups(&self.file.content));
         for name in ["/"].into_iter().chain(named).chain(others) {
-            let checked = self.file.group(name).and_then(|group| check_links(&group));
+            let checked = self.file.content.group(name).and_then(|group| check_links(&group));
             checked.map_err(|source| (format!("the group {name}"), source))?;
         }
         Ok(())
@@ -219,14 +170,14 @@ impl Content {
     }
 
     fn has_attribute(&self, name: &str) -> Result<bool, Failure> {
-        let names = self.file.attr_names();
+        let names = self.file.content.attr_names();
         let names = names.map_err(|source| ("the names of its attributes".to_owned(), source))?;
         Ok(names.iter().any(|found| found == name))
     }
 
     /// All values of a dataset, `expected` of them unless that is not known yet.
     fn values<T: H5Type>(&self, name: &str, expected: Option<usize>) -> Result<Vec<T>, Failure> {
-        let values = self.file.dataset(name).and_then(|dataset| self.bounds.read(&dataset));
+        let values = self.file.content.dataset(name).and_then(|dataset| self.bounds.read(&dataset));
         let values: Vec<T> = values.map_err(|source| (format!("/{name}"), source))?;
         match expected {
             Some(expected) if values.len() != expected => {
@@ -250,21 +201,21 @@ impl Content {
     }
 
     fn text(&self, name: &str) -> Result<String, Failure> {
-        text(&self.file, name).map_err(|source| (name.to_owned(), source))
+        text(&self.file.content, name).map_err(|source| (name.to_owned(), source))
     }
 
     fn number<T: H5Type>(&self, name: &str) -> Result<T, Failure> {
-        let number = self.file.attr(name).and_then(|attribute| attribute.read_scalar());
+        let number = self.file.content.attr(name).and_then(|attribute| attribute.read_scalar());
         number.map_err(|source| (name.to_owned(), source))
     }
 
     /// A list of names; an empty one is not in the file.
     fn names(&self, name: &str) -> Result<Vec<String>, Failure> {
         let read = || -> Hdf5Result<Vec<String>> {
-            if !self.file.attr_names()?.iter().any(|found| found == name) {
+            if !self.file.content.attr_names()?.iter().any(|found| found == name) {
                 return Ok(Vec::new());
             }
-            let names: Vec<VarLenUnicode> = self.file.attr(name)?.read_raw()?;
+            let names: Vec<VarLenUnicode> = self.file.content.attr(name)?.read_raw()?;
             if names.iter().any(|name| name.contains('/')) {
                 return Err("a name holds a slash".into());
             }

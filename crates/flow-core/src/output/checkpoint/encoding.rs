@@ -1,0 +1,150 @@
+//! Writes a checkpoint piece by piece: it takes no memory beside that of the run, which may have left none.
+
+use std::io::{self, BufWriter, Write};
+
+use serde::Serialize;
+
+use super::format::{FOOTER, MAGIC, SceneTexts, VERSION};
+use super::identity::Identity;
+use crate::run::{Frame, Memory, Record, Simulation, StepLog};
+
+/// What a checkpoint holds.
+pub(super) struct Content<'a> {
+    scene: SceneTexts,
+    memory: &'a Memory,
+    frames: &'a [Frame],
+    steps: &'a StepLog,
+    replaces: Option<Identity>,
+}
+
+impl<'a> Content<'a> {
+    /// That of `simulation`, which has left `memory` behind and may replace the result `replaces`.
+    pub fn of(simulation: &'a Simulation, memory: &'a Memory, replaces: Option<Identity>) -> Self {
+        let (given, resolved) = simulation.scene_texts();
+        let scene = SceneTexts { given: given.to_owned(), resolved: resolved.to_owned() };
+        Self { scene, memory, frames: simulation.frames(), steps: simulation.steps(), replaces }
+    }
+
+    /// That of a run that is over and has become `record`. Its frames are all on the largest number of nodes, as those of a record that
+    /// is made from the checkpoint will be anyway.
+    pub fn of_ended(record: &'a Record, memory: &'a Memory, replaces: Option<Identity>) -> Self {
+        let scene = SceneTexts { given: record.scene.clone(), resolved: record.resolved_scene.clone() };
+        Self { scene, memory, frames: &record.frames, steps: &record.steps, replaces }
+    }
+
+    /// Magic, version, sections, footer.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_to(&self, out: &mut dyn Write) -> io::Result<()> {
+        out.write_all(MAGIC)?;
+        out.write_all(&VERSION.to_le_bytes())?;
+        section(out, &self.scene)?;
+        section(out, self.memory)?;
+        section(out, &self.frames[..self.memory.frames()])?;
+        section(out, self.steps)?;
+        section(out, &self.replaces)?;
+        out.write_all(FOOTER)
+    }
+}
+
+/// The bytes of the checkpoint of `simulation`.
+///
+/// # Panics
+/// If they do not fit into memory.
+#[must_use]
+pub fn encode(simulation: &Simulation) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let written = Content::of(simulation, &simulation.memory(), None).write_to(&mut bytes);
+    written.expect("writing to memory does not fail");
+    bytes
+}
+
+/// Length, checksum, content. It is encoded twice, first for its length and checksum, which come before it.
+fn section<T: Serialize + ?Sized>(out: &mut dyn Write, value: &T) -> io::Result<()> {
+    let mut tally = Tally { length: 0, checksum: crc32fast::Hasher::new() };
+    serialise(value, &mut tally)?;
+    out.write_all(&tally.length.to_le_bytes())?;
+    out.write_all(&tally.checksum.finalize().to_le_bytes())?;
+    serialise(value, out)
+}
+
+fn serialise<T: Serialize + ?Sized>(value: &T, out: &mut dyn Write) -> io::Result<()> {
+    let mut kept = Kept { out: BufWriter::new(out), reason: None };
+    match postcard::to_io(value, &mut kept).map(drop) {
+        Ok(()) => kept.out.flush(),
+        Err(error) => Err(kept.reason.unwrap_or_else(|| io::Error::other(error))),
+    }
+}
+
+/// Counts bytes and sums them up.
+struct Tally {
+    length: u64,
+    checksum: crc32fast::Hasher,
+}
+
+impl Write for Tally {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.length += bytes.len() as u64;
+        self.checksum.update(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Keeps the reason why `out` refused bytes, which the encoder forgets.
+struct Kept<W> {
+    out: W,
+    reason: Option<io::Error>,
+}
+
+impl<W: Write> Write for Kept<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.out.write(bytes).map_err(|reason| {
+            let kind = reason.kind();
+            self.reason = Some(reason);
+            kind.into()
+        })
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::Scene;
+
+    /// A disk with room for so many bytes.
+    struct Disk(usize);
+
+    impl Write for Disk {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            self.0 = self.0.checked_sub(bytes.len()).ok_or(io::ErrorKind::StorageFull)?;
+            Ok(bytes.len())
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn wherever_the_disk_is_full_it_is_said() {
+        let (name, text) = Scene::shipped().iter().find(|(name, _)| *name == "circle").unwrap();
+        let simulation = Simulation::new(&Scene::parse(text, name).unwrap()).unwrap();
+        let memory = simulation.memory();
+        let content = Content::of(&simulation, &memory, None);
+        let needed = encode(&simulation).len();
+        content.write_to(&mut Disk(needed)).unwrap();
+        for room in (0..needed).step_by(100).chain([needed - 1]) {
+            let reason = content.write_to(&mut Disk(room)).unwrap_err();
+            assert_eq!(reason.kind(), io::ErrorKind::StorageFull, "{room} of {needed} bytes");
+        }
+    }
+}
