@@ -71,10 +71,8 @@ fn section<T: Serialize + ?Sized>(out: &mut dyn Write, value: &T) -> io::Result<
 
 fn serialise<T: Serialize + ?Sized>(value: &T, out: &mut dyn Write) -> io::Result<()> {
     let mut kept = Kept { out: BufWriter::new(out), reason: None };
-    match postcard::to_io(value, &mut kept).map(drop) {
-        Ok(()) => kept.out.flush(),
-        Err(error) => Err(kept.reason.unwrap_or_else(|| io::Error::other(error))),
-    }
+    let written = postcard::to_io(value, &mut kept).map(drop); // flushes too
+    written.map_err(|error| kept.reason.unwrap_or_else(|| io::Error::other(error)))
 }
 
 /// Counts bytes and sums them up.
@@ -101,17 +99,21 @@ struct Kept<W> {
     reason: Option<io::Error>,
 }
 
+impl<W> Kept<W> {
+    fn keep(&mut self, reason: io::Error) -> io::Error {
+        let kind = reason.kind();
+        self.reason = Some(reason);
+        kind.into()
+    }
+}
+
 impl<W: Write> Write for Kept<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.out.write(bytes).map_err(|reason| {
-            let kind = reason.kind();
-            self.reason = Some(reason);
-            kind.into()
-        })
+        self.out.write(bytes).map_err(|reason| self.keep(reason))
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.out.flush()
+        self.out.flush().map_err(|reason| self.keep(reason))
     }
 }
 
