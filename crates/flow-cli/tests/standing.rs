@@ -147,3 +147,18 @@ fn a_result_that_is_replaced_meanwhile_is_whole() {
         }
     });
 }
+
+#[test]
+fn results_without_a_name_are_named_after_the_whole_of_their_scene() {
+    let folder = Folder::new("named");
+    for name in ["eps_0.1.toml", "eps_0.2.toml", "my.scene.toml"] {
+        fs::copy(folder.0.join("scene.toml"), folder.0.join(name)).unwrap();
+        assert_eq!(code(&folder.call(&["run", name, "-q", "--max-wall", "0"])), 6, "{name}");
+        assert!(folder.0.join(name.replace(".toml", ".h5")).exists());
+    }
+    fs::copy(folder.0.join("eps_0.1.h5"), folder.0.join("bare_0.5")).unwrap();
+    assert_eq!(code(&folder.call(&["plot", "bare_0.5", "-q"])), 0);
+    assert_eq!(code(&folder.call(&["view", "my.scene.h5", "-q"])), 0);
+    assert!(folder.names().contains(&"bare_0.5.png".to_owned()), "{:?}", folder.names());
+    assert!(folder.names().contains(&"my.scene.html".to_owned()), "{:?}", folder.names());
+}

@@ -37,6 +37,16 @@ fn what_is_written_is_read_back() {
     round_trip(&Record { seconds: Seconds::default(), ..synthetic::record(2, 16, &[]) }, &path);
 }
 
+/// No scene has such a title; a record that a program has made may.
+#[test]
+fn what_no_file_can_hold_damages_none() {
+    let folder = Folder::new("nul");
+    let path = folder.file("out.h5");
+    let record = Record { title: "a\0b".to_owned(), ..synthetic::record(2, 16, &[]) };
+    hdf5_file::write(&record, &path, true).unwrap();
+    assert_eq!(hdf5_file::read(&path).unwrap().title, "a\u{FFFD}b");
+}
+
 #[test]
 fn terms_from_outside_the_scene_are_named() {
     let folder = Folder::new("own-terms");

@@ -47,7 +47,7 @@ impl Outset {
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {
-    let wrong = || format!("`{text}` is not a time in seconds of at least 0; try 60");
+    let wrong = || format!("`{text}` is not a time in seconds from 0 to 1.8e19; try 60");
     let value: f64 = text.parse().map_err(|_| wrong())?;
     Duration::try_from_secs_f64(value).map_err(|_| wrong())
 }

@@ -6,6 +6,7 @@ use flow_core::output::atomic_file::check_writable;
 use flow_core::output::picture;
 use flow_core::run::nodal_polylines;
 
+use super::scene_args::with_ending;
 use super::so_far::run_so_far;
 use crate::error::CliError;
 use crate::print;
@@ -28,7 +29,7 @@ pub struct Args {
 
 /// Draws the figure and prints its name, unless quiet.
 pub fn execute(args: &Args) -> Result<(), CliError> {
-    let path = args.output.clone().unwrap_or_else(|| args.out.with_extension("png"));
+    let path = args.output.clone().unwrap_or_else(|| with_ending(&args.out, &["h5"], ".png"));
     check_writable(&path, args.replace)?;
     let record = run_so_far(&args.out)?;
     let nodal_lines = nodal_polylines(&record).map(|[preferred_curvature, low, high]| picture::NodalLines {

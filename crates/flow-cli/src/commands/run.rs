@@ -36,7 +36,7 @@ pub struct Args {
 pub fn execute(args: &Args) -> Result<(), CliError> {
     let outset = Outset::now()?;
     let scene = args.scene.read()?;
-    let output = args.output.clone().unwrap_or_else(|| args.scene.stem().with_extension("h5"));
+    let output = args.output.clone().unwrap_or_else(|| args.scene.named(".h5"));
     let mut pair = Pair::beside(&output);
     if args.resume {
         return go_on(args, outset, &scene, output, pair);

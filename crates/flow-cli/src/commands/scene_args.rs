@@ -38,15 +38,24 @@ impl SceneArgs {
         CliError::Unusable { scene: self.name().to_owned(), reason }
     }
 
-    /// Name for what is made of the scene: the file's name without its ending.
-    pub fn stem(&self) -> PathBuf {
-        PathBuf::from(self.name().file_stem().unwrap_or(self.name().as_os_str()))
+    /// Name for what is made of the scene, in the current folder: its own without `.toml`, with `ending` added.
+    pub fn named(&self, ending: &str) -> PathBuf {
+        let name = self.name().file_name().unwrap_or(self.name().as_os_str());
+        with_ending(Path::new(name), &["toml", "h5"], ending)
     }
 
     /// The scene or result that was named; clap sees to it that one was.
     fn name(&self) -> &Path {
         self.scene.as_deref().or(self.from.as_deref()).unwrap_or(Path::new(""))
     }
+}
+
+/// `path` with `ending` added, in place of its extension if that is one of `known`: in `eps_0.1` a dot ends no name.
+pub fn with_ending(path: &Path, known: &[&str], ending: &str) -> PathBuf {
+    let is_known = path.extension().is_some_and(|extension| known.iter().any(|known| extension == *known));
+    let mut name = if is_known { path.with_extension("") } else { path.to_path_buf() }.into_os_string();
+    name.push(ending);
+    PathBuf::from(name)
 }
 
 /// The record of the file `result`, if its scene alone makes it.
@@ -78,4 +87,22 @@ fn shipped(path: &Path) -> Option<(&'static str, &'static str)> {
 fn key_and_value(text: &str) -> Result<(String, String), String> {
     let (key, value) = text.split_once('=').ok_or("expected key=value, e.g. accuracy.tolerance=1e-6")?;
     Ok((key.trim().to_owned(), value.trim().to_owned()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_endings_are_taken_off() {
+        for (path, named) in [
+            ("eps_0.1.toml", "eps_0.1.h5"),
+            ("a/my.scene.toml", "a/my.scene.h5"),
+            ("eps_0.1", "eps_0.1.h5"),
+            ("circle", "circle.h5"),
+            (".toml", ".toml.h5"),
+        ] {
+            assert_eq!(with_ending(Path::new(path), &["toml"], ".h5"), Path::new(named));
+        }
+    }
 }

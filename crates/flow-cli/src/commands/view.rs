@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use flow_core::output::atomic_file::check_writable;
 use flow_core::output::page;
 
+use super::scene_args::with_ending;
 use super::so_far::run_so_far;
 use crate::error::CliError;
 use crate::print;
@@ -31,7 +32,7 @@ pub struct Args {
 
 /// Writes the page and prints its name.
 pub fn execute(args: &Args) -> Result<(), CliError> {
-    let path = args.output.clone().unwrap_or_else(|| args.out.with_extension("html"));
+    let path = args.output.clone().unwrap_or_else(|| with_ending(&args.out, &["h5"], ".html"));
     check_writable(&path, args.replace)?;
     let record = run_so_far(&args.out)?;
     page::view(&record, &path, args.replace)?;

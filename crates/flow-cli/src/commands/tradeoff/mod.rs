@@ -47,7 +47,7 @@ pub struct Args {
 pub fn execute(args: &Args) -> Result<(), CliError> {
     let ladder = ladder(args)?;
     let scene = args.scene.read()?;
-    let path = args.output.clone().unwrap_or_else(|| default_name(args));
+    let path = args.output.clone().unwrap_or_else(|| args.scene.named("_tradeoff.png"));
     picture::check_name(&path)?;
     check_writable(&path, args.replace)?;
     let mut reporter = Reporter::new(args.quiet, stop_flag()?, None);
@@ -82,12 +82,6 @@ fn ladder(args: &Args) -> Result<Ladder, CliError> {
         }
         _ => ladder.map_err(|error| CliError::Usage { message: error.to_string() }),
     }
-}
-
-fn default_name(args: &Args) -> PathBuf {
-    let mut name = args.scene.stem().into_os_string();
-    name.push("_tradeoff.png");
-    PathBuf::from(name)
 }
 
 /// Whether the ladder answers what was asked.

@@ -1,5 +1,7 @@
 //! One dataset: chunked, with Fletcher32, dimension scales, a long name and units.
 
+use std::borrow::Cow;
+
 use hdf5_image::{attach_scale, set_scale};
 use hdf5_metno::types::VarLenUnicode;
 use hdf5_metno::{Dataset, Extent, Group, H5Type, Location, SimpleExtents};
@@ -74,7 +76,12 @@ pub(super) fn write_text(owner: &Location, name: &str, value: &str) -> Result<()
 
 /// A text as the library stores it; it cannot hold NUL bytes, which become replacement characters.
 pub(super) fn text(value: &str) -> VarLenUnicode {
-    value.replace('\0', "\u{FFFD}").parse().unwrap_or_default()
+    storable(value).parse().unwrap_or_default()
+}
+
+/// The text that is read again where `value` is written.
+pub(super) fn storable(value: &str) -> Cow<'_, str> {
+    if value.contains('\0') { value.replace('\0', "\u{FFFD}").into() } else { value.into() }
 }
 
 fn empty<T: H5Type>(group: &Group, name: &str, shape: &[usize]) -> hdf5_metno::Result<Dataset> {

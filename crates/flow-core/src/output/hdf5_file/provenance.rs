@@ -3,7 +3,7 @@
 use hdf5_metno::types::VarLenUnicode;
 use hdf5_metno::{File, H5Type, Location};
 
-use super::dataset::{building, text, write_text};
+use super::dataset::{building, storable, text, write_text};
 use super::layout::{CAUSES, CONVENTIONS, COUNTERS};
 use super::numbers;
 use crate::output::StorageError;
@@ -57,8 +57,12 @@ pub(super) fn checksum(record: &Record) -> u64 {
     let names = names.map(String::as_str);
     let Provenance { version, commit, machine, citation } = &record.provenance;
     let origin = [version.as_str(), commit.as_deref().unwrap_or_default(), machine, citation];
-    let bytes = texts.into_iter().chain(names).chain(origin).flat_map(|text| text.bytes().chain([0]));
-    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+    let next = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    texts
+        .into_iter()
+        .chain(names)
+        .chain(origin)
+        .fold(0xcbf2_9ce4_8422_2325, |hash, text| next(storable(text).bytes().fold(hash, next), 0))
 }
 
 fn texts(record: &Record) -> [(&'static str, &str); 5] {

@@ -249,7 +249,7 @@ fn check_weights(root: &Section<'_>, density: &[Density], flow: &Flow) {
 
 /// Reads all tables, so that all problems are found; `None` if there is one.
 fn read(mut root: Section<'_>) -> Option<Scene> {
-    let title = root.get("title").map_or(Some(""), |entry| entry.text());
+    let title = root.get("title").map_or(Some(""), |entry| entry.stored_text());
     let curve = root.required("curve", "[curve] with shape = \"circle\" and radius = 1.0");
     let curve = curve.and_then(|entry| Curve::read(entry.section()?));
     let (density, names) = Density::read_all(root.get("density"), curve.as_ref().and_then(Curve::points));

@@ -92,6 +92,16 @@ impl<'d> Entry<'d> {
         self.value.as_str().or_else(|| self.wrong_type("text in quotes"))
     }
 
+    /// A text that goes into result files as it is.
+    pub(super) fn stored_text(&self) -> Option<&'d str> {
+        let text = self.text()?;
+        if text.contains('\0') {
+            self.fault(Fault::HoldsNul);
+            return None;
+        }
+        Some(text)
+    }
+
     /// One of the names of `T`.
     pub(super) fn choice<T: Choice>(&self) -> Option<T> {
         let text = self.text()?;

@@ -107,6 +107,8 @@ pub enum Fault {
     WrongCount { count: usize, bound: Bound, remedy: &'static str },
     /// Not one of the names allowed.
     UnknownName { value: String, suggestion: Option<String>, allowed: Vec<&'static str> },
+    /// A text with a NUL character, which no result file can hold.
+    HoldsNul,
     /// A formula that is not in the grammar.
     Expression { text: String, source: ExpressionError },
     /// Keys that exclude each other.

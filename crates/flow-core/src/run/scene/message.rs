@@ -196,6 +196,9 @@ fn sentence(key: &str, fault: &Fault) -> String {
         Fault::Points { file, source } => {
             format!("`{key}`: cannot use `{}`: {source}", plain(&file.display().to_string()))
         }
+        Fault::HoldsNul => {
+            format!("`{key}` holds a NUL character (\\u0000), which a result file cannot hold; leave it out")
+        }
         Fault::NoSuchPlace { reason, remedy } => format!("`{key}` cannot be set: {reason}; {remedy}"),
     }
 }

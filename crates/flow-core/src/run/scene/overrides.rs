@@ -51,7 +51,9 @@ fn position(densities: &DeArray<'_>, name: &str) -> Option<usize> {
 /// Writes the values into the document; keys that lead nowhere are reported.
 pub(super) fn apply<'i>(document: &mut DeTable<'i>, overrides: &'i [Override<'i>], report: &Report<'_>) {
     for change in overrides {
-        if let Err((reason, remedy)) = set(document, &change.path, value(change.value)) {
+        // A title is text, also where it looks like a number.
+        let value = if change.path == "title" { title(change.value) } else { value(change.value) };
+        if let Err((reason, remedy)) = set(document, &change.path, value) {
             report.add(&change.path, &(0..0), Fault::NoSuchPlace { reason, remedy });
         }
     }
@@ -62,6 +64,11 @@ fn value(text: &str) -> Option<DeValue<'_>> {
     let parsed =
         || DeValue::parse(text).map_or_else(|_| DeValue::String(Cow::Borrowed(text)), Spanned::into_inner);
     (!text.is_empty()).then(parsed)
+}
+
+/// The text, without quotes if it has some.
+fn title(text: &str) -> Option<DeValue<'_>> {
+    value(text).map(|value| if value.is_str() { value } else { DeValue::String(Cow::Borrowed(text)) })
 }
 
 fn set<'i>(
