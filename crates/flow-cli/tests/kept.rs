@@ -107,3 +107,19 @@ fn a_run_without_a_result_yet_can_be_looked_at() {
     assert_eq!(folder.names(), ["out.h5.checkpoint-a", "out.png", "scene.toml"], "nothing is touched");
     assert_eq!(code(&folder.call(&["info", "other.h5"])), 5);
 }
+
+/// Enough memory for the run, and too little for its result.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_result_that_has_no_memory_is_written_by_resume() {
+    let folder = Folder::new("memory");
+    let many = "run three_fold_sharp --set output.frames=3000 --set time.end=1 -q -o out.h5 --checkpoint 0.1";
+    let unwritten = folder.shell(&format!("ulimit -v 300000; exec \"$0\" {many}"));
+    assert_eq!(code(&unwritten), 5, "{}", said(&unwritten));
+    assert!(said(&unwritten).contains("in memory failed"), "{}", said(&unwritten));
+    let seen = folder.shell("ulimit -v 150000; exec \"$0\" info out.h5");
+    assert_eq!(code(&seen), 5, "{}", said(&seen));
+    assert!(said(&seen).contains("free some memory"), "{}", said(&seen));
+    assert_eq!(code(&folder.call(&["resume", "out.h5", "-q"])), 0);
+    assert_eq!(folder.names(), ["out.h5", "scene.toml"]);
+}

@@ -4,6 +4,7 @@
 //! are built in memory, and [`file_image`] hands over their bytes. Both need calls into the C library; this
 //! crate is the only place of the workspace where `unsafe` is allowed, and it does nothing else.
 
+use std::collections::TryReserveError;
 use std::ffi::{CString, NulError, c_char, c_uint};
 use std::ptr;
 
@@ -34,6 +35,14 @@ pub enum ImageError {
         /// Size of the buffer that it was given, 0 when it was asked for the size.
         size: usize,
     },
+    /// There is no memory for the image.
+    #[error("there is no memory for the {size} bytes of the file")]
+    Memory {
+        /// Size of the file in bytes.
+        size: usize,
+        /// What the allocator says.
+        source: TryReserveError,
+    },
     /// A name holds a NUL byte.
     #[error("the name of a dimension holds a NUL byte at position {}", .0.nul_position())]
     Name(#[from] NulError),
@@ -49,14 +58,16 @@ pub enum ImageError {
 
 /// Returns the bytes that `file` would have on disk. The file stays open and unchanged.
 /// # Errors
-/// [`ImageError::Flush`] or [`ImageError::Image`] if the library runs out of memory or cannot finish the file.
+/// [`ImageError::Flush`] or [`ImageError::Image`] if the library runs out of memory or cannot finish the file, [`ImageError::Memory`].
 pub fn file_image(file: &File) -> Result<Vec<u8>, ImageError> {
     file.flush().map_err(ImageError::Flush)?;
     sync(|| {
         // SAFETY: a null buffer of size 0 asks for the size; `file` keeps its identifier open.
         let size = unsafe { H5Fget_file_image(file.id(), ptr::null_mut(), 0) };
         let bytes = usize::try_from(size).map_err(|_| ImageError::Image { returned: size, size: 0 })?;
-        let mut image = vec![0_u8; bytes];
+        let mut image = Vec::new();
+        image.try_reserve_exact(bytes).map_err(|source| ImageError::Memory { size: bytes, source })?;
+        image.resize(bytes, 0_u8);
         // SAFETY: the buffer holds `bytes` bytes, and the lock of `sync` keeps the file from growing meanwhile.
         let written = unsafe { H5Fget_file_image(file.id(), image.as_mut_ptr().cast(), bytes) };
         if usize::try_from(written) == Ok(bytes) {

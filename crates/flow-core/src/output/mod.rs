@@ -7,6 +7,7 @@ mod drawn;
 #[cfg(feature = "hdf5")]
 pub mod hdf5_file;
 mod links;
+mod memory;
 pub mod page;
 #[cfg(feature = "picture")]
 pub mod picture;

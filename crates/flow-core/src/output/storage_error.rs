@@ -122,6 +122,12 @@ impl StorageError {
         )
     }
 
+    /// `true` if there was no memory for what is in the file.
+    #[must_use]
+    pub fn is_for_want_of_memory(&self) -> bool {
+        matches!(self, Self::System { reason, .. } if reason.kind() == ErrorKind::OutOfMemory)
+    }
+
     /// Whether it has the same cause as `other`, perhaps at another file.
     #[must_use]
     pub fn is_like(&self, other: &Self) -> bool {
@@ -153,6 +159,7 @@ fn remedy(operation: Operation, reason: &io::Error) -> &'static str {
     match reason.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "free some space, or choose another disk",
         ErrorKind::FileTooLarge => "raise the file size limit (ulimit -f), or ask for fewer frames",
+        ErrorKind::OutOfMemory => "free some memory, or raise its limit (ulimit -v, that of the job)",
         ErrorKind::PermissionDenied if operation == Operation::Read => "ask its owner for read access",
         ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => "choose a folder you may write to",
         ErrorKind::NotFound if operation == Operation::Read => "check the name",

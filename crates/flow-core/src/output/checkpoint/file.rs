@@ -5,6 +5,7 @@ use std::path::Path;
 
 use super::encoding::Content;
 use super::format::{Checkpoint, MAGIC, decode};
+use crate::output::memory::check_room;
 use crate::output::signature::begins_with;
 use crate::output::{Operation, StorageError, atomic_file};
 use crate::run::Simulation;
@@ -19,7 +20,9 @@ pub fn read(path: &Path) -> Result<Checkpoint, StorageError> {
     if !fs::metadata(path).map_err(failed)?.is_file() {
         return Err(StorageError::NotAFile { path: path.to_path_buf() });
     }
-    decode(&fs::read(path).map_err(failed)?, path)
+    let bytes = fs::read(path).map_err(failed)?;
+    check_room(bytes.len() as u64).map_err(failed)?; // what is decoded takes about as much
+    decode(&bytes, path)
 }
 
 /// Saves `simulation` to `path`. Another checkpoint there, of any version, is replaced; any other file only if `replace`.

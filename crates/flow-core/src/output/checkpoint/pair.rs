@@ -65,6 +65,8 @@ impl Pair {
                         newest = Some((index, checkpoint));
                     }
                 }
+                // It may be the newer one, and whole.
+                Err(error) if error.is_for_want_of_memory() => return Err(error),
                 Err(error) => damaged = Some(error),
             }
         }

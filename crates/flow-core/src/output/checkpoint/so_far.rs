@@ -6,8 +6,9 @@ use std::path::Path;
 use super::belonging::is_of_scene;
 use super::format::Checkpoint;
 use super::pair::{Found, Pair};
+use crate::output::memory::check_room;
 use crate::output::{Operation, StorageError, hdf5_file};
-use crate::run::{Record, StopReason};
+use crate::run::{Frame, Record, StopReason};
 
 /// A run, as far as it has come.
 #[derive(Debug)]
@@ -38,8 +39,18 @@ pub fn so_far(path: &Path) -> Result<SoFar, StorageError> {
 }
 
 fn at(found: Found) -> Result<SoFar, StorageError> {
-    let mut simulation = found.checkpoint.simulation(&found.path)?;
-    Ok(SoFar { record: simulation.record(), checkpoint: Some(simulation.time()), successor: None })
+    let failed = |reason| StorageError::system(&found.path, Operation::Read, reason);
+    check_room(growth_on_common_nodes(&found.checkpoint.frames)).map_err(failed)?;
+    let simulation = found.checkpoint.simulation(&found.path)?;
+    let time = simulation.time();
+    Ok(SoFar { record: simulation.into_record(), checkpoint: Some(time), successor: None })
+}
+
+/// What `frames` take more once they are all on the largest number of nodes among them.
+fn growth_on_common_nodes(frames: &[Frame]) -> u64 {
+    let bytes = |frame: &Frame| frame.nodes() * (frame.nodal_fields().count() + 2) * size_of::<f64>();
+    let most = frames.iter().map(bytes).max().unwrap_or_default();
+    frames.iter().map(|frame| (most - bytes(frame)) as u64).sum()
 }
 
 /// The result `record` in the file `path`, or more of its run. Checkpoints that are no good do not matter to a result.

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use hdf5_metno::{Error, File};
 
 use super::heaps::{broken_heap, has_wide_lengths};
+use crate::output::memory::check_room;
 use crate::output::{Operation, StorageError};
 
 /// The first bytes of every HDF5 file.
@@ -14,6 +15,9 @@ const SIGNATURE: [u8; 8] = *b"\x89HDF\r\n\x1a\n";
 
 /// Bytes in which every HDF5 file says how long its lengths are.
 const FIRST_BLOCK: usize = 48;
+
+/// What reading takes at once, in multiples of the file: that of the library, and the record.
+const COPIES: u64 = 2;
 
 /// A file that the library has open.
 pub(super) struct Opened {
@@ -46,6 +50,9 @@ pub(super) fn open(
     if let Some(place) = broken_heap(&bytes) {
         return Err(damaged("its texts", format!("the heap at byte {place} does not add up").into()));
     }
+    let length = bytes.len() as u64;
+    drop(bytes);
+    check_room(length.saturating_mul(COPIES)).map_err(failed)?;
     let name = name(&file, path);
     if name.to_str().is_none() {
         return Err(StorageError::NotUtf8 { path: path.to_path_buf() });
@@ -53,7 +60,7 @@ pub(super) fn open(
     // The library reads the whole file at once and takes no lock on it.
     let content = File::with_options().with_fapl(|plist| plist.core_filebacked(false)).open(name);
     let content = content.map_err(|source| damaged("its first block", source))?;
-    Ok((Opened { content, _file: file }, bytes.len() as u64))
+    Ok((Opened { content, _file: file }, length))
 }
 
 /// A name of the open file for the library: by `path` it might find another one, which has taken the place of this one meanwhile.

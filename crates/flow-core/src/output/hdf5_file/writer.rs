@@ -1,5 +1,6 @@
 //! Builds a result file in memory and hands its bytes to [`atomic_file`]: the HDF5 library never touches the disk.
 
+use std::collections::TryReserveError;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
@@ -10,6 +11,7 @@ use super::dataset::{Axis, axis, building, dataset, labelled_axis, write_text};
 use super::layout::{CAUSES, FRAME_VALUES, NAMED_FIELDS, NAMED_VALUES, NODAL_FIELDS, STEP_VALUES};
 use super::meanings::Meaning;
 use super::{provenance, seconds};
+use crate::output::memory::collected;
 use crate::output::rectangle::{check, check_frames};
 use crate::output::{StorageError, atomic_file};
 use crate::run::{Frame, Record, Seconds, Spending};
@@ -95,17 +97,18 @@ fn write_fields(file: &File, record: &Record, axes: [&Axis; 3]) -> Result<(), St
     let meaning = Meaning::new("parameter s of the node", "1");
     dataset(file, "parameter", &[node], &meaning, &parameter)?;
     for entry in NODAL_FIELDS {
-        let values = flat(record, |frame| (entry.get)(frame).as_slice());
+        let values = flat(record, n, |frame| (entry.get)(frame).as_slice()).map_err(building(entry.name))?;
         let meaning = Meaning::new(entry.long_name, entry.units);
         dataset(file, entry.name, &[frame, node], &meaning, &values)?;
     }
-    let position = flat(record, |frame| frame.position.as_flattened());
+    let position = flat(record, 2 * n, |frame| frame.position.as_flattened());
+    let position = position.map_err(building("position"))?;
     let meaning = Meaning::new("position of the node", "length_unit");
     dataset(file, "position", &[frame, node, component], &meaning, &position)?;
     for list in NAMED_FIELDS {
         let group = file.create_group(list.group).map_err(building(list.group))?;
         for (i, name) in (list.names)(record).iter().enumerate() {
-            let values = flat(record, |frame| (list.get)(frame)[i].as_slice());
+            let values = flat(record, n, |frame| (list.get)(frame)[i].as_slice()).map_err(building(name))?;
             let meaning = (list.meaning)(name);
             dataset(&group, name, &[frame, node], &meaning, &values)?;
         }
@@ -139,8 +142,13 @@ fn per_frame(record: &Record, value: impl Fn(&Frame) -> f64) -> Vec<f64> {
     record.frames.iter().map(value).collect()
 }
 
-fn flat<'a>(record: &'a Record, field: impl Fn(&'a Frame) -> &'a [f64]) -> Vec<f64> {
-    record.frames.iter().flat_map(field).copied().collect()
+/// The values of `field` in all frames, `row` of them in each.
+fn flat<'a>(
+    record: &'a Record,
+    row: usize,
+    field: impl Fn(&'a Frame) -> &'a [f64],
+) -> Result<Vec<f64>, TryReserveError> {
+    collected(record.frames.iter().flat_map(field).copied(), record.frames.len() * row)
 }
 
 /// A file is a set of rectangles: every frame has the same sizes, every step an entry in each list.
