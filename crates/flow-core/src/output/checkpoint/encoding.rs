@@ -8,6 +8,9 @@ use super::format::{FOOTER, MAGIC, SceneTexts, VERSION};
 use super::identity::Identity;
 use crate::run::{Frame, Memory, Record, Simulation, StepLog};
 
+/// Bytes that are written at once.
+const BUFFER: usize = 1 << 20;
+
 /// What a checkpoint holds.
 pub(super) struct Content<'a> {
     scene: SceneTexts,
@@ -37,6 +40,7 @@ impl<'a> Content<'a> {
     /// # Errors
     /// Those of `out`.
     pub fn write_to(&self, out: &mut dyn Write) -> io::Result<()> {
+        let out = &mut BufWriter::with_capacity(BUFFER, out);
         out.write_all(MAGIC)?;
         out.write_all(&VERSION.to_le_bytes())?;
         section(out, &self.scene)?;
@@ -44,7 +48,8 @@ impl<'a> Content<'a> {
         section(out, &self.frames[..self.memory.frames()])?;
         section(out, self.steps)?;
         section(out, &self.replaces)?;
-        out.write_all(FOOTER)
+        out.write_all(FOOTER)?;
+        out.flush()
     }
 }
 
@@ -61,17 +66,19 @@ pub fn encode(simulation: &Simulation) -> Vec<u8> {
 }
 
 /// Length, checksum, content. It is encoded twice, first for its length and checksum, which come before it.
-fn section<T: Serialize + ?Sized>(out: &mut dyn Write, value: &T) -> io::Result<()> {
-    let mut tally = Tally { length: 0, checksum: crc32fast::Hasher::new() };
+fn section<T: Serialize + ?Sized>(out: &mut impl Write, value: &T) -> io::Result<()> {
+    let tally = Tally { length: 0, checksum: crc32fast::Hasher::new() };
+    let mut tally = BufWriter::with_capacity(BUFFER, tally);
     serialise(value, &mut tally)?;
-    out.write_all(&tally.length.to_le_bytes())?;
-    out.write_all(&tally.checksum.finalize().to_le_bytes())?;
+    let Tally { length, checksum } = tally.into_inner()?;
+    out.write_all(&length.to_le_bytes())?;
+    out.write_all(&checksum.finalize().to_le_bytes())?;
     serialise(value, out)
 }
 
-fn serialise<T: Serialize + ?Sized>(value: &T, out: &mut dyn Write) -> io::Result<()> {
-    let mut kept = Kept { out: BufWriter::new(out), reason: None };
-    let written = postcard::to_io(value, &mut kept).map(drop); // flushes too
+fn serialise<T: Serialize + ?Sized>(value: &T, out: &mut impl Write) -> io::Result<()> {
+    let mut kept = Kept { out, reason: None };
+    let written = postcard::to_io(value, &mut kept).map(drop);
     written.map_err(|error| kept.reason.unwrap_or_else(|| io::Error::other(error)))
 }
 
@@ -99,21 +106,18 @@ struct Kept<W> {
     reason: Option<io::Error>,
 }
 
-impl<W> Kept<W> {
-    fn keep(&mut self, reason: io::Error) -> io::Error {
-        let kind = reason.kind();
-        self.reason = Some(reason);
-        kind.into()
-    }
-}
-
 impl<W: Write> Write for Kept<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.out.write(bytes).map_err(|reason| self.keep(reason))
+        self.out.write(bytes).map_err(|reason| {
+            let kind = reason.kind();
+            self.reason = Some(reason);
+            kind.into()
+        })
     }
 
+    /// The encoder asks for it at the end of a value, which is not that of the file.
     fn flush(&mut self) -> io::Result<()> {
-        self.out.flush().map_err(|reason| self.keep(reason))
+        Ok(())
     }
 }
 

@@ -71,7 +71,7 @@ mod tests {
             (("time.max_steps", "7"), "time.max_steps"),
             (("density.0.initial", "'0.4'"), "density.0.initial"),
             (("curve", "{ shape = 'circle', radius = 1 }"), "curve.radius"),
-            (("output.fields", "['normal_force']"), "output.fields"),
+            (("output.fields", "['normal-force']"), "output.fields"),
             (("title", "'another'"), "title"),
         ] {
             let other = three_fold(&[change]);

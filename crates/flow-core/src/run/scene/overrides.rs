@@ -66,9 +66,10 @@ fn value(text: &str) -> Option<DeValue<'_>> {
     (!text.is_empty()).then(parsed)
 }
 
-/// The text, without quotes if it has some.
+/// The text, without quotes if it has some; a number or a date is the text that it was written as.
 fn title(text: &str) -> Option<DeValue<'_>> {
-    value(text).map(|value| if value.is_str() { value } else { DeValue::String(Cow::Borrowed(text)) })
+    let is_kept = |value: &DeValue<'_>| value.is_str() || value.is_array() || value.is_table();
+    value(text).map(|value| if is_kept(&value) { value } else { DeValue::String(Cow::Borrowed(text)) })
 }
 
 fn set<'i>(
