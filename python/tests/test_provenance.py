@@ -36,7 +36,7 @@ def test_a_result_tells_where_it_comes_from(short: cf.Scene, tmp_path: Path):
     made = result.provenance
     assert made.version == cf.__version__
     assert made.commit is None or len(made.commit.removesuffix("-dirty")) == 40
-    assert "processors" in made.machine and "Promislow" in made.citation
+    assert "processor" in made.machine and "Promislow" in made.citation
     assert made.integration_seconds == result.stats["integration_seconds"] > 0
     result.save(path)
     opened = cf.open(path)

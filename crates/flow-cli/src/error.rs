@@ -52,7 +52,7 @@ pub enum CliError {
     /// Neither the result nor a checkpoint of its run could be written.
     #[error("{0}; a checkpoint of the run could not be written either, so that nothing of it is kept")]
     Lost(StorageError),
-    /// Standard output is closed or full.
+    /// Standard output is full, or cannot be written to for another reason than that its reader has gone.
     #[error("cannot write to standard output: {0}; redirect it to a disk with space")]
     Stdout(io::Error),
     /// The handlers of signals could not be set.

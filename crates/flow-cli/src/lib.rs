@@ -58,23 +58,29 @@ impl Command {
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
-        // Help and the version come this way too.
+        // Help and the version come this way too: they are data.
         Err(other) => {
-            let _ = other.print(); // nobody need listen
+            let printed = other.print().or_else(print::unless_gone);
+            if let Some(error) = printed.err().filter(|_| !other.use_stderr()) {
+                return failed(&CliError::Stdout(error));
+            }
             return u8::try_from(other.exit_code()).unwrap_or(2);
         }
     };
     match panic::catch_unwind(|| signals::let_large_writes_fail().and_then(|()| cli.command.execute())) {
         Ok(Ok(())) => 0,
-        Ok(Err(error)) => {
-            print::talk(&format!("error: {}", with_causes(&error)));
-            exit_code(&error)
-        }
+        Ok(Err(error)) => failed(&error),
         Err(_) => {
             print::talk("this is a bug in curveflow: please report the lines above and the scene");
             70
         }
     }
+}
+
+/// Says what went wrong; returns the exit code.
+fn failed(error: &CliError) -> u8 {
+    print::talk(&format!("error: {}", with_causes(error)));
+    exit_code(error)
 }
 
 /// The one map from errors to exit codes; 0 is success, 2 is clap's, 70 a panic.

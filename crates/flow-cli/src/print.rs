@@ -9,10 +9,12 @@ use crate::error::CliError;
 /// Prints data. A reader that has gone (`… | head`) is no error.
 pub fn data(text: &str) -> Result<(), CliError> {
     let mut out = io::stdout().lock();
-    match writeln!(out, "{text}").and_then(|()| out.flush()) {
-        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
-        done => done.map_err(CliError::Stdout),
-    }
+    writeln!(out, "{text}").and_then(|()| out.flush()).or_else(unless_gone).map_err(CliError::Stdout)
+}
+
+/// A failure to print, unless the reader has gone.
+pub fn unless_gone(error: io::Error) -> io::Result<()> {
+    if error.kind() == ErrorKind::BrokenPipe { Ok(()) } else { Err(error) }
 }
 
 /// Says something; nobody need listen.
@@ -24,6 +26,15 @@ pub fn talk(text: &str) {
 pub fn number(value: f64) -> Value {
     if value.is_finite() { json!(value) } else { json!(value.to_string()) }
 }
+
+/// A count for JSON, of what was computed as a number.
+pub fn count(value: f64) -> Value {
+    let whole = (0.0..=MOST_COUNTED).contains(&value);
+    if whole { json!(value.round() as u64) } else { number(value) }
+}
+
+/// Whole numbers up to here are exact.
+const MOST_COUNTED: f64 = 9_007_199_254_740_992.0;
 
 /// Seven digits that count, at any size: 5.604831, 1.234568e-6.
 pub fn digits(value: f64) -> String {
@@ -85,6 +96,12 @@ mod tests {
             assert_eq!(digits(value), text);
         }
         assert_eq!([129.4, 0.0783, 3.0].map(|value| significant(value, 2)), ["130", "0.078", "3.0"]);
+    }
+
+    #[test]
+    fn counts_are_whole_numbers_in_json() {
+        assert_eq!([0.0, 202.3, 5_081_125.55].map(|value| count(value).to_string()), ["0", "202", "5081126"]);
+        assert_eq!(count(f64::NAN), "NaN");
     }
 
     #[test]

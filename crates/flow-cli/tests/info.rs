@@ -23,6 +23,10 @@ fn said(folder: &Folder, args: &[&str]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
+fn json(folder: &Folder, args: &[&str]) -> Value {
+    serde_json::from_slice(&folder.call(args).stdout).unwrap()
+}
+
 fn sum(seconds: &Value) -> f64 {
     seconds.as_object().unwrap().values().map(|value| value.as_f64().unwrap()).sum()
 }
@@ -50,4 +54,52 @@ fn info_tells_where_the_time_went() {
     // The file knows how long it took to make, the program that made it also how long it took to write.
     let (made, all) = (&info["seconds"]["output"], &run["seconds"]["output"]);
     assert!(0.0 < made.as_f64().unwrap() && made.as_f64().unwrap() < all.as_f64().unwrap());
+}
+
+/// Tables made of many runs have no holes.
+#[test]
+fn json_has_the_same_keys_however_a_run_ends() {
+    let folder = Folder::empty("keys");
+    fs::write(folder.0.join("circle.toml"), CIRCLE).unwrap();
+    let whole = json(&folder, &["run", "circle.toml", "--json", "-o", "whole.h5"]);
+    let failing = ["--set", "time.max_steps=1", "--set", "accuracy.nodes=auto"];
+    let failed =
+        json(&folder, &[&["run", "circle.toml", "--json", "-o", "failed.h5"], &failing[..]].concat());
+    let keys = |value: &Value| value.as_object().unwrap().keys().cloned().collect::<Vec<_>>();
+    assert_eq!(keys(&whole), keys(&failed));
+    assert_eq!((&whole["success"], &failed["success"]), (&true.into(), &false.into()));
+    assert_eq!((&whole["output"], &failed["output"]), (&"whole.h5".into(), &"failed.h5".into()));
+    assert_eq!(whole["message"], "the end time was reached");
+    assert!(failed["advice"].as_str().unwrap().starts_with("first mend what ended the run: "));
+    for none in ["remaps", "unresolved_steps", "crossings_last"] {
+        assert_eq!(whole[none], 0, "{none}");
+    }
+    for none in ["events", "warnings", "own_terms"] {
+        assert!(whole[none].as_array().unwrap().is_empty(), "{none}");
+    }
+    assert_eq!(json(&folder, &["info", "whole.h5", "--json"])["steps"], whole["steps"]);
+}
+
+#[test]
+fn the_counts_of_check_are_whole_numbers() {
+    let folder = Folder::empty("counts");
+    let prediction = json(&folder, &["check", "circle", "--json"]);
+    for count in ["nodes", "most_nodes", "unknowns", "memory_bytes", "file_bytes", "steps"] {
+        assert!(prediction[count].is_u64(), "{count}: {}", prediction[count]);
+    }
+}
+
+/// The mass of a density with both signs is zero but for rounding.
+#[test]
+fn the_drift_of_a_mass_is_relative_to_what_there_is() {
+    let folder = Folder::empty("drift");
+    let density = "[[density]]\nname = 'c'\ninitial = 'cos(2*pi*s)'\nmobility = 'diffusion'\n\
+                   [energy.local]\nexpression = '0.5*c^2'\n";
+    fs::write(
+        folder.0.join("signs.toml"),
+        format!("{CIRCLE}{density}").replace("energy = {", "energy.length.tension = 1.0 #"),
+    )
+    .unwrap();
+    let run = json(&folder, &["run", "signs.toml", "--json"]);
+    assert!(run["mass_drift_c"].as_f64().unwrap().abs() < 1e-12, "{run}");
 }

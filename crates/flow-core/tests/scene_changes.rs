@@ -46,6 +46,20 @@ fn refused_at(change: impl Fn(&mut Scene)) -> Vec<String> {
     found
 }
 
+/// `bc` prints numbers without the zero before the point.
+#[test]
+fn numbers_may_be_written_as_calculators_write_them() {
+    let with = |key: &str, value: &str| {
+        let set = [(key.to_owned(), value.to_owned())];
+        let scene = Scene::parse_with(CIRCLE, "circle.toml", &set).unwrap_or_else(|error| panic!("{error}"));
+        Scene::parse(scene.text(), "again").unwrap_or_else(|error| panic!("{error}"))
+    };
+    for (text, value) in [(".001", 1e-3), ("1.e-3", 1e-3), ("01e-3", 1e-3), ("+.05", 0.05)] {
+        assert_eq!(with("accuracy.tolerance", text).accuracy.tolerance, value);
+    }
+    assert_eq!(with("title", "1.2.3").title, "1.2.3");
+}
+
 #[test]
 fn changes_that_make_no_scene_are_refused_at_their_keys() {
     for count in [0, 1, 1 << 40, usize::MAX] {

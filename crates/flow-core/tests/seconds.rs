@@ -6,7 +6,7 @@ use flow_core::integrator::Activity;
 use flow_core::run::scene::LinearSolver;
 use flow_core::run::{
     Counters, Limit, Observer, Progress, Quiet, Record, Rejections, Scene, Seconds, Simulation, Spending,
-    WhySlow, run,
+    StopReason, WhySlow, run,
 };
 
 mod synthetic;
@@ -207,6 +207,16 @@ fn adhesion_has_advice_of_its_own() {
         of_the_term.contains("expressions") && !of_the_solves.contains("dense"),
         "{of_the_term}; {of_the_solves}"
     );
+}
+
+#[test]
+fn a_run_that_failed_is_mended_before_it_is_made_quicker() {
+    let mut record = synthetic::record(3, 16, &["rho"]);
+    record.stop_reason = StopReason::Failed("no further step".to_owned());
+    assert_eq!(WhySlow::of(&record).advice, "first mend what ended the run: no further step");
+    record.seconds = Seconds::default();
+    record.seconds[Spending::Start] = 1.0;
+    assert_eq!(WhySlow::of(&record).advice, "first mend what ended the run: no further step");
 }
 
 #[test]

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use flow_core::output::checkpoint::{Ended, Pair, Saving, run_saving};
 use flow_core::output::{StorageError, hdf5_file};
-use flow_core::run::{Record, Simulation, StopReason, warnings};
+use flow_core::run::{Record, Simulation, Spending, StopReason, warnings};
 
 use super::info;
 use crate::error::CliError;
@@ -85,7 +85,7 @@ impl Conduct {
         let removed = if goes_on { Ok(()) } else { saving.pair.remove() };
         let seconds = began.elapsed().as_secs_f64();
         if self.json {
-            print::data(&info::json(&record))?;
+            print::data(&info::json(&record, &output))?;
         } else if !self.quiet {
             print::talk(&closing_line(&record, seconds));
             say_doubts(&record);
@@ -165,6 +165,28 @@ fn closing_line(record: &Record, seconds: f64) -> String {
         record.nodes(),
         counted(record.counters.steps, "step"),
         seconds,
-        record.counters.integration_seconds,
+        // Counters hold those before a restart too, which are no part of the seconds of this command.
+        Spending::ALL
+            .into_iter()
+            .filter(Spending::is_step)
+            .map(|spending| record.seconds[spending])
+            .sum::<f64>(),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use flow_core::run::{Quiet, Scene, run};
+
+    use super::*;
+
+    #[test]
+    fn the_integration_is_no_more_than_the_command_took() {
+        let (name, text) = Scene::shipped()[0];
+        let mut record = run(&Scene::parse(text, name).unwrap(), &mut Quiet).unwrap();
+        record.counters.integration_seconds += 1e6; // of a run that was resumed
+        let line = closing_line(&record, 1e3);
+        let part = line.split(" s (").nth(1).and_then(|rest| rest.split(" s integration").next()).unwrap();
+        assert!(part.parse::<f64>().unwrap() < 1e3, "{line}");
+    }
 }

@@ -67,7 +67,7 @@ pub fn already_done(conduct: &Conduct, record: &Record, output: &Path) -> Result
         _ => {}
     }
     if conduct.json {
-        print::data(&info::json(record))?;
+        print::data(&info::json(record, output))?;
     } else if !conduct.quiet {
         print::talk(&format!("nothing to do: {}", record.stop_reason.message()));
         say_doubts(record);

@@ -19,10 +19,10 @@ pub enum IntegrationError {
          must be at least {least:.3e}; choose later times, or a smaller unit of time"
     )]
     StopTooNear { time: f64, step: f64, least: f64 },
-    /// The allowed number of steps is used up.
+    /// The allowed number of steps is used up: `time.max_steps` of a scene, [`AdaptiveOptions::most_steps`](super::AdaptiveOptions::most_steps)
+    /// of a problem of your own.
     #[error(
-        "the number of steps allowed, {steps}, is used up at t = {time:.6e}; raise time.max_steps of the scene or drop it \
-         (AdaptiveOptions::most_steps, for a problem of your own)"
+        "the number of steps allowed, {steps}, is used up at t = {time:.6e}; raise time.max_steps of the scene or drop it"
     )]
     TooManySteps { time: f64, steps: u64 },
     /// The energy does not lose what is dissipated, however short the step.

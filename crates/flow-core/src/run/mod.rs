@@ -17,6 +17,7 @@ mod initial_state;
 mod interpolant;
 mod invariants;
 mod limits;
+mod mass_change;
 mod membrane;
 mod mesh;
 mod missed;

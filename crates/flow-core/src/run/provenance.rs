@@ -24,11 +24,14 @@ impl Provenance {
     /// This program on this machine.
     #[must_use]
     pub fn here() -> Self {
-        let processors = std::thread::available_parallelism().map_or(0, usize::from);
+        let processors = match std::thread::available_parallelism().map_or(0, usize::from) {
+            1 => "1 processor".to_owned(),
+            many => format!("{many} processors"),
+        };
         Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             commit: option_env!("CURVEFLOW_COMMIT").map(str::to_owned),
-            machine: format!("{} {}, {processors} processors", std::env::consts::OS, std::env::consts::ARCH),
+            machine: format!("{} {}, {processors}", std::env::consts::OS, std::env::consts::ARCH),
             citation: CITATION.to_owned(),
         }
     }

@@ -119,6 +119,12 @@ impl StopReason {
         }
     }
 
+    /// Whether the run came to where it was to go: its end time, its equilibrium, or the contact that it was to stop at.
+    #[must_use]
+    pub fn is_success(&self) -> bool {
+        matches!(self, Self::EndTime | Self::Equilibrium | Self::Contact)
+    }
+
     /// One sentence on it; the message of the failure if there was one.
     #[must_use]
     pub fn message(&self) -> &str {

@@ -39,6 +39,12 @@ impl Spending {
         Self::Output,
     ];
 
+    /// Whether it is a part of the integration.
+    #[must_use]
+    pub fn is_step(&self) -> bool {
+        matches!(self, Self::Step(_))
+    }
+
     /// The name in result files and in Python.
     #[must_use]
     pub fn name(self) -> &'static str {

@@ -39,8 +39,8 @@ fn laws(record: &Record) -> Vec<String> {
         ));
     }
     for (k, name) in record.densities.iter().enumerate() {
-        let mass = frames.iter().map(|frame| frame.mass[k]).collect();
-        rows.push(row(&format!("relative change of the mass of {name}, at most"), &[change(mass)]));
+        let most = largest(record.mass_changes(k));
+        rows.push(row(&format!("relative change of the mass of {name}, at most"), &[most]));
     }
     rows.extend([
         row("length, first → last", &ends(|frame| frame.length)),
@@ -116,7 +116,7 @@ fn drift(values: Vec<f64>) -> f64 {
 }
 
 /// The largest deviation from the first value, relative to it unless it is zero.
-pub(super) fn change(values: Vec<f64>) -> f64 {
+fn change(values: Vec<f64>) -> f64 {
     let first = values.first().copied().unwrap_or(f64::NAN);
     drift(values) / if first == 0.0 { 1.0 } else { first.abs() }
 }

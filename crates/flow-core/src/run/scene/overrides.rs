@@ -18,13 +18,20 @@ pub(super) struct Override<'a> {
     pub(super) key: &'a str,
     /// The value as given.
     pub(super) value: &'a str,
+    /// The value as TOML writes it.
+    toml: Cow<'a, str>,
     /// The key with densities by index, as in the paths of problems.
     pub(super) path: String,
 }
 
 /// Resolves the keys against a document.
 pub(super) fn resolve<'a>(document: &DeTable<'_>, overrides: &'a [(String, String)]) -> Vec<Override<'a>> {
-    let resolved = |(key, value): &'a (String, String)| Override { key, value, path: path(document, key) };
+    let resolved = |(key, value): &'a (String, String)| Override {
+        key,
+        value,
+        toml: notation(value),
+        path: path(document, key),
+    };
     overrides.iter().map(resolved).collect()
 }
 
@@ -52,7 +59,7 @@ fn position(densities: &DeArray<'_>, name: &str) -> Option<usize> {
 pub(super) fn apply<'i>(document: &mut DeTable<'i>, overrides: &'i [Override<'i>], report: &Report<'_>) {
     for change in overrides {
         // A title is text, also where it looks like a number.
-        let value = if change.path == "title" { title(change.value) } else { value(change.value) };
+        let value = if change.path == "title" { title(change.value) } else { value(&change.toml) };
         if let Err((reason, remedy)) = set(document, &change.path, value) {
             report.add(&change.path, &(0..0), Fault::NoSuchPlace { reason, remedy });
         }
@@ -70,6 +77,17 @@ fn value(text: &str) -> Option<DeValue<'_>> {
 fn title(text: &str) -> Option<DeValue<'_>> {
     let is_kept = |value: &DeValue<'_>| value.is_str() || value.is_array() || value.is_table();
     value(text).map(|value| if is_kept(&value) { value } else { DeValue::String(Cow::Borrowed(text)) })
+}
+
+/// `text`, but as TOML writes it if it is a number in a notation that TOML lacks and calculators print: `.001`, `1.e-3`, `01e-3`.
+fn notation(text: &str) -> Cow<'_, str> {
+    let written = text.bytes().all(|byte| byte.is_ascii_digit() || b".eE+-".contains(&byte));
+    match text.parse() {
+        Ok(value) if written && f64::is_finite(value) && DeValue::parse(text).is_err() => {
+            format!("{value:?}").into()
+        }
+        _ => text.into(),
+    }
 }
 
 fn set<'i>(

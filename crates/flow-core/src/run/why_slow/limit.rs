@@ -2,7 +2,7 @@
 
 use super::super::energy_terms::{Initial, energy_terms};
 use super::super::own_terms::OwnTerms;
-use super::super::record::Record;
+use super::super::record::{Record, StopReason};
 use super::super::resolution::LEAST_NODES;
 use super::super::scene::{LinearSolver, Scene};
 use super::super::warnings::doubts;
@@ -152,8 +152,12 @@ impl Limit {
         (sentence, self.before_it_is_quicker(record).unwrap_or_else(|| advice.to_owned()))
     }
 
-    /// What a doubtful result needs before its steps may be made fewer or cheaper, which would make it worse.
+    /// What a run that failed needs before it is worth making quicker, and a doubtful result before its steps may be made fewer or
+    /// cheaper, which would make it worse.
     fn before_it_is_quicker(self, record: &Record) -> Option<String> {
+        if let StopReason::Failed(message) = &record.stop_reason {
+            return Some(format!("first mend what ended the run: {message}"));
+        }
         let doubt = matches!(self, Self::Term | Self::Accuracy).then(|| doubts(record).next())??;
         Some(format!("first {}: the result is doubtful as it is", doubt.remedy()))
     }

@@ -68,7 +68,8 @@ fn rows(f: &mut Formatter<'_>, shares: &[Share], prefix: Option<&str>) -> fmt::R
         let prefix = prefix.filter(|_| text == name).unwrap_or_default();
         // What a scene does not have takes no time; a term that it names is listed even so.
         if *share >= SHOWN || !prefix.is_empty() {
-            writeln!(f, "{seconds:>10.3e}  {:>4.1} %  {prefix}{text}", 100.0 * share)?;
+            let seconds = if *seconds > 0.0 { format!("{seconds:.3e}") } else { "0".to_owned() };
+            writeln!(f, "{seconds:>10}  {:>4.1} %  {prefix}{text}", 100.0 * share)?;
         }
     }
     Ok(())

@@ -7,7 +7,7 @@ mod number;
 
 use std::fmt::Write;
 
-use super::facts::{change, largest, largest_rise};
+use super::facts::{largest, largest_rise};
 use super::text::escaped;
 use crate::run::{Frame, Record, StopReason, WhySlow, warnings};
 use number::short;
@@ -109,8 +109,8 @@ fn laws(record: &Record) -> Vec<(String, String)> {
         ("area".to_owned(), ends(|frame| frame.area)),
     ];
     for (k, name) in record.densities.iter().enumerate() {
-        let mass = change(frames.iter().map(|frame| frame.mass[k]).collect());
-        rows.push((format!("mass of {} off by", escaped(name)), short(mass, FEW_DIGITS)));
+        let most = largest(record.mass_changes(k));
+        rows.push((format!("mass of {} off by", escaped(name)), short(most, FEW_DIGITS)));
     }
     let gap = largest(of_frames(|frame| frame.closure_defect / frame.length));
     rows.push(("gap at closure / length".to_owned(), short(gap, FEW_DIGITS)));
