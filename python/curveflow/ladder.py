@@ -87,7 +87,10 @@ class Tradeoff:
 
     @property
     def includes_space(self) -> bool:
-        """Whether the reference has more nodes than the runs, so that the errors hold those of the nodes."""
+        """Whether the reference has more nodes than every run, so that all errors hold those of the nodes.
+
+        Those of a single run do where ``nodes < reference.nodes``.
+        """
         return self._native.includes_space
 
     @property

@@ -66,6 +66,32 @@ fn json_holds_the_errors_at_both_times() {
 }
 
 #[test]
+fn a_figure_is_drawn_unless_nobody_wants_it() {
+    let folder = Folder::empty("figure");
+    for wanted in ["--json", "--no-picture"] {
+        let output = folder.tradeoff(&["circle", "--tolerances", "1e-2", "-q", wanted]);
+        assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
+        assert!(folder.names().is_empty(), "{:?}", folder.names());
+    }
+}
+
+/// Automatic nodes may be as many as those of the reference at some tolerances only.
+#[test]
+fn errors_are_of_space_where_a_run_has_fewer_nodes() {
+    let folder = Folder::empty("scope");
+    let output = folder.tradeoff(&["blend", "--tolerances", "1e-2,1e-8", "--json"]);
+    let value: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let nodes: Vec<_> = value["rows"].as_array().unwrap().iter().map(|row| row["nodes"].as_u64()).collect();
+    assert!(
+        nodes[0] < value["reference"]["nodes"].as_u64() && nodes[1] == value["reference"]["nodes"].as_u64()
+    );
+    let of_rows = [0, 1].map(|row| value["rows"][row]["includes_space"].as_bool().unwrap());
+    assert_eq!((of_rows, &value["includes_space"]), ([true, false], &false.into()));
+    let talk = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(talk.contains("errors in time and space, but in time only at 1e-8 ("), "{talk}");
+}
+
+#[test]
 fn a_bad_list_of_tolerances_says_why() {
     let folder = Folder::empty("list");
     for (list, words) in [
@@ -104,12 +130,12 @@ fn scenes_and_runs_that_fail_have_their_exit_codes() {
     assert_eq!(stdout(&output).lines().count(), 2);
 }
 
+/// What a ladder prints that is stopped in its second run, and the last line that it says.
 #[cfg(unix)]
-#[test]
-fn a_signal_keeps_the_runs_that_are_complete() {
-    let folder = Folder::empty("signal");
+fn interrupted(folder: &Folder, more: &[&str]) -> (Output, String) {
     let mut child = Command::new(env!("CARGO_BIN_EXE_curveflow"))
         .args(["tradeoff", "three_fold_sharp", "--tolerances", "1e-2,1e-9"])
+        .args(more)
         .current_dir(&folder.0)
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
@@ -120,10 +146,29 @@ fn a_signal_keeps_the_runs_that_are_complete() {
     let interrupted = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
     assert!(interrupted.success());
     let last = talk.last().unwrap();
-    let output = child.wait_with_output().unwrap();
+    (child.wait_with_output().unwrap(), last)
+}
+
+#[cfg(unix)]
+#[test]
+fn a_signal_keeps_the_runs_that_are_complete() {
+    let folder = Folder::empty("signal");
+    let (output, last) = interrupted(&folder, &[]);
     assert_eq!(output.status.code(), Some(6), "{last}");
     assert_eq!(last, "error: stopped by a signal after 1 of the runs; try fewer tolerances, or looser ones");
     let table = stdout(&output);
     assert!(table.lines().nth(2).unwrap().contains("interrupted before the run was complete"), "{table}");
     assert_eq!(folder.names(), ["three_fold_sharp_tradeoff.png"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_run_without_a_result_has_the_keys_of_the_others() {
+    let folder = Folder::empty("ladder-keys");
+    let (output, _) = interrupted(&folder, &["--json"]);
+    let value: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let keys = |row: usize| value["rows"][row].as_object().unwrap().keys().collect::<Vec<_>>();
+    assert_eq!(keys(0), keys(1));
+    assert!(value["rows"][0]["failure"].is_null() && value["rows"][1]["failure"].is_string());
+    assert!(value["rows"][1]["error"].is_null() && value["cheapest"].is_null());
 }

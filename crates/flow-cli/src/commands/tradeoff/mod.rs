@@ -1,11 +1,8 @@
 //! `curveflow tradeoff SCENE`: measure the error of a ladder of tolerances against the time that they take.
 
+mod figure;
 mod report;
 
-use std::path::PathBuf;
-
-use flow_core::output::atomic_file::check_writable;
-use flow_core::output::picture;
 use flow_core::run::tradeoff::{Ladder, Tradeoff, tradeoff};
 
 use super::scene_args::SceneArgs;
@@ -13,6 +10,7 @@ use crate::error::CliError;
 use crate::print;
 use crate::progress::Reporter;
 use crate::signals::stop_flag;
+use figure::FigureArgs;
 
 /// Measure true errors against time for a ladder of tolerances; print the table and draw it.
 #[derive(Debug, clap::Args)]
@@ -29,12 +27,8 @@ pub struct Args {
     /// Name the quickest run with at most this error.
     #[arg(long, value_name = "ERROR")]
     pub error: Option<f64>,
-    /// Figure to write, `.png` or `.svg` [default: the scene's name with _tradeoff.png, in the current folder].
-    #[arg(short, long, value_name = "PNG|SVG")]
-    pub output: Option<PathBuf>,
-    /// Replace an existing figure.
-    #[arg(long)]
-    pub replace: bool,
+    #[command(flatten)]
+    pub figure: FigureArgs,
     /// Print JSON instead of a table.
     #[arg(long)]
     pub json: bool,
@@ -47,9 +41,7 @@ pub struct Args {
 pub fn execute(args: &Args) -> Result<(), CliError> {
     let ladder = ladder(args)?;
     let scene = args.scene.read()?;
-    let path = args.output.clone().unwrap_or_else(|| args.scene.named("_tradeoff.png"));
-    picture::check_name(&path)?;
-    check_writable(&path, args.replace)?;
+    let path = args.figure.path(args.scene.named("_tradeoff.png"), args.json)?;
     let mut reporter = Reporter::new(args.quiet, stop_flag()?, None);
     let measured = tradeoff(&scene, &ladder, &mut reporter);
     reporter.finish();
@@ -62,9 +54,8 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     } else {
         report::table(&measured, args.error)
     })?;
-    if measured.rungs().next().is_some() {
-        let options = picture::Options { replace: args.replace, ..picture::Options::default() };
-        picture::plot_tradeoff(&measured, &path, &options)?;
+    if let Some(path) = path.filter(|_| measured.rungs().next().is_some()) {
+        args.figure.draw(&measured, &path)?;
         if !args.quiet {
             print::talk(&path.display().to_string());
         }

@@ -5,15 +5,22 @@ use std::fmt::Write;
 use flow_core::run::tradeoff::{Errors, Rung, Tradeoff};
 use serde_json::{Map, Value, json};
 
-use crate::print::number;
+use crate::print::{counted, number};
 
 /// What was compared with what, in one line.
 pub fn scope(measured: &Tradeoff) -> String {
     let (span, reference) = (measured.span, measured.reference);
-    let scope = if measured.includes_space() {
-        "errors in time and space"
+    let in_time_only: Vec<String> =
+        measured.in_time_only().map(|tolerance| format!("{tolerance:e}")).collect();
+    let scope = if in_time_only.is_empty() {
+        "errors in time and space".to_owned()
+    } else if in_time_only.len() == measured.rungs().count() {
+        "errors in time only (--reference-nodes adds those of the nodes)".to_owned()
     } else {
-        "errors in time only (--reference-nodes adds those of the nodes)"
+        let tolerances = in_time_only.join(", ");
+        format!(
+            "errors in time and space, but in time only at {tolerances} (--reference-nodes adds those of the nodes)"
+        )
     };
     let rounding = if reference.at_rounding {
         "; the reference cannot be tighter, so errors near its tolerance are not resolved"
@@ -22,13 +29,13 @@ pub fn scope(measured: &Tradeoff) -> String {
     };
     format!(
         "compared at t = {:.6e}, where half of the energy is lost, and t = {:.6e} ({}) with a run at tolerance {:e} on {} \
-         nodes ({} steps, {} s): {scope}{rounding}",
+         nodes ({}, {} s): {scope}{rounding}",
         span.halfway,
         span.end,
         span.ending.name(),
         reference.tolerance,
         reference.nodes,
-        reference.steps,
+        counted(reference.steps, "step"),
         digits(reference.seconds)
     )
 }
@@ -106,10 +113,11 @@ pub fn json(measured: &Tradeoff, error: Option<f64>) -> String {
         .iter()
         .map(|row| match &row.outcome {
             Ok(rung) => setting(measured, row.tolerance, rung),
-            Err(failure) => json!({ "tolerance": row.tolerance, "failure": failure.to_string() }),
+            Err(failure) => failed(row.tolerance, &failure.to_string()),
         })
         .collect();
-    let mut value = json!({
+    let cheapest = error.and_then(|error| measured.cheapest(error));
+    let value = json!({
         "title": measured.title,
         "times": { "halfway": span.halfway, "end": span.end, "ending": span.ending.name() },
         "reference": {
@@ -121,12 +129,8 @@ pub fn json(measured: &Tradeoff, error: Option<f64>) -> String {
         },
         "includes_space": measured.includes_space(),
         "rows": rows,
+        "cheapest": cheapest.map(|(tolerance, rung)| setting(measured, tolerance, rung)),
     });
-    if let Some(error) = error {
-        let cheapest = measured.cheapest(error);
-        value["cheapest"] =
-            cheapest.map_or(Value::Null, |(tolerance, rung)| setting(measured, tolerance, rung));
-    }
     format!("{value:#}")
 }
 
@@ -137,10 +141,26 @@ fn setting(measured: &Tradeoff, tolerance: f64, rung: &Rung) -> Value {
     let [halfway, end] = &rung.errors;
     json!({
         "tolerance": tolerance,
+        "failure": null,
+        "includes_space": measured.includes_space_of(rung),
         "error": number(rung.largest_error()),
         "nodes": rung.nodes,
         "steps": rung.steps,
         "seconds": rung.seconds,
         "errors": { "halfway": errors(halfway), "end": errors(end) },
+    })
+}
+
+/// A run without a result, with the keys of one that has.
+fn failed(tolerance: f64, failure: &str) -> Value {
+    json!({
+        "tolerance": tolerance,
+        "failure": failure,
+        "includes_space": null,
+        "error": null,
+        "nodes": null,
+        "steps": null,
+        "seconds": null,
+        "errors": null,
     })
 }

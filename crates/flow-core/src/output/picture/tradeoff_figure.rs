@@ -126,7 +126,11 @@ impl Draw for Figure<'_> {
         };
         self.panel(page, left, 0, &halfway)?;
         self.panel(page, right, 1, &format!("{end}, t = {}", number(span.end)))?;
-        let scope = if self.tradeoff.includes_space() { "time and space" } else { "time only" };
+        let scope = match self.tradeoff.in_time_only().count() {
+            0 => "time and space",
+            count if count == self.rungs.len() => "time only",
+            _ => "time and, of runs on fewer nodes, in space",
+        };
         let note = format!(
             "numbers at the runs: tolerance asked for; errors in {scope}, against tolerance {} with {} nodes",
             tolerance(reference.tolerance),

@@ -83,10 +83,21 @@ impl Tradeoff {
         good.min_by(|(_, a), (_, b)| a.seconds.total_cmp(&b.seconds))
     }
 
-    /// Whether the errors hold those of the nodes too: the reference has more of them than any rung.
+    /// Whether all errors hold those of the nodes too: the reference has more of them than any rung.
     #[must_use]
     pub fn includes_space(&self) -> bool {
-        self.rungs().all(|(_, rung)| rung.nodes < self.reference.nodes)
+        self.rungs().all(|(_, rung)| self.includes_space_of(rung))
+    }
+
+    /// Whether the errors of `rung` hold those of its nodes: the reference has more.
+    #[must_use]
+    pub fn includes_space_of(&self, rung: &Rung) -> bool {
+        rung.nodes < self.reference.nodes
+    }
+
+    /// The tolerances of the rungs whose errors are those in time only.
+    pub fn in_time_only(&self) -> impl Iterator<Item = f64> {
+        self.rungs().filter(|(_, rung)| !self.includes_space_of(rung)).map(|(tolerance, _)| tolerance)
     }
 
     /// Whether the ladder was interrupted before its last rung.
