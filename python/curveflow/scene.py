@@ -175,8 +175,8 @@ class Scene(_Checked):
         Args:
             values: dotted keys and their values: ``{"accuracy.tolerance": 1e-4, "density.protein.initial": "0.5"}``,
                 or nested, ``{"accuracy": {"tolerance": 1e-4}}``, which means the same: other keys of the table stay.
-                Numbers, texts (formulas too), truth values, lists, arrays and the objects of whole tables are allowed;
-                missing keys are added, and ``None`` removes a key.
+                Numbers (fractions, decimals and those of NumPy too), texts (formulas too), truth values, lists, arrays and
+                the objects of whole tables are allowed; missing keys are added, and ``None`` removes a key.
 
         Raises:
             SceneError: the changed scene is not valid.

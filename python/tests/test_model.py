@@ -1,6 +1,9 @@
 import pickle
 from dataclasses import FrozenInstanceError, replace
+from decimal import Decimal
+from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -75,6 +78,14 @@ def test_arrays_and_scalars_of_numpy_are_numbers():
     assert cf.Ellipse(np.array([2, 1])) == cf.Ellipse((2, 1))
     assert cf.Output(times=np.array([0.0, 1.0])).times == (0.0, 1.0)
     assert cf.Accuracy(nodes=np.int32(64)) == cf.Accuracy(nodes=64)
+
+
+@pytest.mark.parametrize("tenth", [np.longdouble(0.1), Decimal("0.1"), Fraction(1, 10)])
+def test_other_numbers_are_floats(tenth: Any):
+    assert type(cf.Time(tenth).end) is float
+    assert replace(BASE, time=cf.Time(tenth)).time.end == pytest.approx(0.1)
+    assert BASE.with_values({"time.end": tenth}).time.end == pytest.approx(0.1)
+    assert BASE.with_values({"output": cf.Output(times=(0, tenth))}).output.times == pytest.approx((0, 0.1))
 
 
 def test_points_come_from_a_file(tmp_path: Path):

@@ -1,4 +1,5 @@
 from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
@@ -157,6 +158,14 @@ def test_existing_files_are_kept(membrane: cf.Result, tmp_path: Path):
     assert path.read_text() == "precious"
     membrane.save(path, replace=True)
     assert cf.open(path).success
+
+
+def test_names_of_files_may_be_bytes(membrane: cf.Result, tmp_path: Path):
+    path: Any = bytes(tmp_path / "ring.h5")
+    membrane.save(path)
+    assert cf.open(path).status == membrane.status
+    with pytest.raises(TypeError, match=r"expected str, bytes or os\.PathLike object, not NoneType"):
+        cf.open(None)  # type: ignore[arg-type]
 
 
 def test_foreign_files_are_refused(tmp_path: Path):

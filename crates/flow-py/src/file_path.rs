@@ -20,7 +20,9 @@ impl FromPyObject<'_, '_> for FilePath {
 
 /// The name that `given` is; an error of `class` if it holds half a character, which no name of a file can.
 pub fn file_path(given: &Bound<'_, PyAny>, class: &str) -> PyResult<PathBuf> {
-    given.extract().map_err(|error: PyErr| {
+    // Bytes are names too, as they are for `open` of Python.
+    let decoded = given.py().import("os")?.call_method1("fsdecode", (given,))?;
+    decoded.extract().map_err(|error: PyErr| {
         if error.is_instance_of::<PyUnicodeEncodeError>(given.py()) {
             not_a_name(given, class)
         } else {

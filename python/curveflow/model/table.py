@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from dataclasses import fields
+from decimal import Decimal
+from numbers import Real
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -30,10 +32,18 @@ class Table:
             object.__setattr__(self, field.name, _plain(getattr(self, field.name)))
 
 
-def _plain(value: Any) -> Any:
-    """Return a value without NumPy and without lists, so that it can be compared and hashed."""
+def python_number(value: Any) -> Any:
+    """Return a number or an array as Python's own: longer ones, fractions and decimals as floats; another value as it is."""
     if isinstance(value, np.generic | np.ndarray):
         value = value.tolist()
+    if isinstance(value, Real | Decimal) and not isinstance(value, int | float):
+        value = float(value)
+    return value
+
+
+def _plain(value: Any) -> Any:
+    """Return a value without NumPy and without lists, so that it can be compared and hashed."""
+    value = python_number(value)
     if isinstance(value, os.PathLike):
         return os.fspath(value)
     if isinstance(value, list | tuple):

@@ -8,12 +8,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields
 from typing import Any, TypeVar
 
-import numpy as np
-
 from ..errors import SceneError
 from .density import Density
 from .energy import TERMS, EnergyTerm
-from .table import Table
+from .table import Table, python_number
 
 T = TypeVar("T", bound=Table)
 
@@ -25,8 +23,7 @@ def value(key: str, given: object) -> str:
         SceneError: a text has half a character.
         TypeError: there is no such value in TOML.
     """
-    if isinstance(given, np.generic | np.ndarray):
-        given = given.tolist()
+    given = python_number(given)
     if isinstance(given, str):
         check_characters(key, given)
     if isinstance(given, bool | int | str):

@@ -83,7 +83,8 @@ pub enum SetupError {
     /// No term is to blame, but the state cannot be evaluated.
     #[error(
         "the initial state of {nodes} nodes cannot be evaluated, though each term of the energy is finite on it: the curve does not \
-         close on its nodes, its metric is not positive, or the mobility is not defined; try more `accuracy.nodes`"
+         close on its nodes, its metric is not positive, the mobility is not defined, or powers of such lengths are no numbers; try more \
+         `accuracy.nodes`, or a unit in which the curve is neither tiny nor huge"
     )]
     StateNotFinite { nodes: usize },
     /// Two terms have one name, or the name of a term from outside is no key.
