@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -41,6 +41,8 @@ def plot(tradeoff: Tradeoff, figure: Figure | None = None) -> Figure:
     right.set_title(f"{_ENDINGS[tradeoff.ending]}, $t$ = {end:.4g}", fontsize="medium")
     _scale(tradeoff, left)
     left.set_ylabel("relative error")
+    if marks := [mark for time, axes in enumerate((left, right)) for mark in _mark_smaller(tradeoff, time, axes)]:
+        drawn.append(_smaller(marks[0]))
     left.legend(handles=drawn, frameon=False, fontsize="small")
     if tradeoff.title:
         figure.suptitle(plain(tradeoff.title))
@@ -70,6 +72,27 @@ def draw(tradeoff: Tradeoff, time: int, axes: Axes) -> list[Line2D]:
     axes.set(xscale="log", yscale="log", xlabel="time of integration [s]")
     axes.grid(color="0.9")
     return drawn
+
+
+def _mark_smaller(tradeoff: Tradeoff, time: int, axes: Axes) -> list[Line2D]:
+    """Mark at the lower edge, one above the other, what lies below it; what the flow keeps to the last digit has no line."""
+    low = axes.get_ylim()[0]
+    height = np.full(tradeoff.seconds.shape, 0.02)
+    marks = []
+    for number, values in enumerate(tradeoff.errors.values()):
+        below = (values[time] < low) & (values > 0).any()
+        place: dict[str, Any] = {"transform": axes.get_xaxis_transform(), "color": _COLOURS[number % len(_COLOURS)]}
+        if below.any():
+            marks += axes.plot(tradeoff.seconds[below], height[below], "v", markersize=6, **place)
+        height[below] += 0.03
+    return marks
+
+
+def _smaller(mark: Line2D) -> Line2D:
+    """What stands for the marks in a legend."""
+    from matplotlib.lines import Line2D
+
+    return Line2D([], [], color="0.2", marker=mark.get_marker(), linestyle="", markersize=6, label="smaller")
 
 
 def _scale(tradeoff: Tradeoff, axes: Axes) -> None:

@@ -97,9 +97,13 @@ def checked(size: tuple[int, int]) -> tuple[int, int]:
     """Return a size that a movie can have.
 
     Raises:
+        TypeError: it is not a width and a height.
         ValueError: it is out of range, or odd.
     """
-    width, height = (index(pixels) for pixels in size)
+    try:
+        width, height = (index(pixels) for pixels in size)
+    except (TypeError, ValueError):
+        raise TypeError(f"size = {size!r:.60}: it must be a width and a height in whole pixels, such as (960, 540)") from None
     for name, pixels, least in zip(("width", "height"), (width, height), _LEAST, strict=True):
         if not least <= pixels <= _MOST or pixels % 2:
             raise ValueError(f"size = {size}: the {name} must be an even number of pixels from {least} to {_MOST}")

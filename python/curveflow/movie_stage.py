@@ -15,7 +15,7 @@ from .frames import Array
 from .movie_file import Image
 from .history_plot import BLUE, energy_history
 from .periodic import closed, refined
-from .plotting import plain
+from .plotting import DOT, plain
 from .scales import fit, from_start, scale_time
 
 if TYPE_CHECKING:
@@ -69,6 +69,9 @@ class Stage:
         self._curve.set_array(0.5 * (value[:-1] + value[1:]))
         time = float(self._result.time[frame])
         self._time.set_text(f"$t$ = {time:.4g}")
+        extents = (float(np.ptp(curve, axis=0).max()) for curve in (points, self._result.position[0]))
+        shrunk = next(extents) < DOT * next(extents)
+        self._dot.set_data(*(points.mean(axis=0)[:, None] if shrunk else ([], [])))
         past = self._history[0] <= max(time, self._first)
         self._past.set_data(self._history[0][past], self._history[1][past])
         self._now.set_data([max(time, self._first)], [self._result.energy[frame]])
@@ -80,6 +83,7 @@ class Stage:
         scale, extend = _scale(values)
         lines = LineCollection([], linewidths=height * _DPI / 130, capstyle="round", cmap="viridis", norm=scale)
         axes.add_collection(lines, autolim=False)
+        (self._dot,) = axes.plot([], [], "ko", markersize=4)
         points = self._result.position[[0, *shown]].reshape(-1, 2)
         middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
         reach = 0.55 * float(np.ptp(points, axis=0).max())

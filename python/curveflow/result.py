@@ -108,19 +108,21 @@ class Result(Frames):
         """Where the time went, what limits the run, and one thing to try; print it to read it."""
         return WhySlow._of(self._record)
 
-    def plot(self, figure: Figure | None = None) -> Figure:
+    def plot(self, figure: Figure | None = None, *, density: str | None = None) -> Figure:
         """Draw the final curve, its state, and energy and length over time: the panels of ``curveflow plot``.
 
         Args:
             figure: where to draw; a new figure of pyplot if none is given. The panels alone, for axes of your own,
                 are the functions of :mod:`curveflow.plotting`.
+            density: name of the one that colours the curve and is drawn against its curvature; the first if none is given.
 
         Raises:
             MissingExtraError: matplotlib is missing: ``pip install "curveflow[plot]"``.
+            ValueError: there is no such density.
         """
         from . import plotting
 
-        return plotting.plot(self, figure)
+        return plotting.plot(self, figure, density)
 
     def save(self, path: str | os.PathLike[str], replace: bool = False) -> None:
         """Write a result file (HDF5), which :func:`curveflow.open`, h5py and xarray read.
@@ -134,17 +136,21 @@ class Result(Frames):
         """
         self._record.save(path, replace)
 
-    def picture(self, path: str | os.PathLike[str], replace: bool = False) -> None:
+    def picture(
+        self, path: str | os.PathLike[str], replace: bool = False, *, density: str | None = None
+    ) -> None:
         """Write the figure of :meth:`plot` as a PNG or SVG file, as ``curveflow plot`` does; needs no matplotlib.
 
         Args:
             path: its name, which ends in ``.png`` or ``.svg``.
             replace: whether an existing file may be replaced.
+            density: as in :meth:`plot`.
 
         Raises:
             StorageError: the file exists, has another ending, or cannot be written; an existing one is then as it was.
+            ValueError: there is no such density.
         """
-        _curveflow.picture(self._record, path, replace)
+        _curveflow.picture(self._record, path, self._known(density), replace)
 
     def animate(
         self,
@@ -201,6 +207,17 @@ class Result(Frames):
             StorageError: the file exists or cannot be written; an existing file is then as it was.
         """
         self._record.view(path, replace)
+
+    def _known(self, density: str | None) -> str | None:
+        """Return the name of a density that is there, or none.
+
+        Raises:
+            ValueError: there is no such density; the message lists those there are.
+        """
+        if density is None or density in self.density:
+            return density
+        there = f"it has {', '.join(self.density)}" if self.density else "it has none"
+        raise ValueError(f"density = {density!r:.60}: the result has no such density; {there}")
 
     def __reduce__(self) -> tuple[object, ...]:
         return _of_bytes, (_curveflow.file_bytes(self._record),)

@@ -87,6 +87,9 @@ def test_existing_movies_are_kept(growth: cf.Result, tmp_path: Path):
     for wrong in ({"fps": 0}, {"fps": 60}, {"size": (401, 240)}, {"size": (200, 200)}, {"frames": 0}, {"frames": []}):
         with pytest.raises(ValueError, match=next(iter(wrong))):
             growth.animate(path, replace=True, **wrong)  # type: ignore[arg-type]
+    for no_pair in (1, (960,), (960, 540, 3), (960.5, 540)):
+        with pytest.raises(TypeError, match="size = .* a width and a height"):
+            growth.animate(path, replace=True, size=no_pair)  # type: ignore[arg-type]
     assert path.read_text() == "precious"
     path.chmod(0o444)
     with pytest.raises(cf.StorageError, match="write-protected"):
@@ -168,3 +171,17 @@ def test_a_movie_starts_with_the_initial_energy_and_round_curves(growth: cf.Resu
     assert stage._now.get_ydata()[0] == growth.energy[0]
     assert stage._past.get_xydata().shape == (1, 2)
     assert growth.position.shape[1] < 400 <= len(stage._curve.get_segments())
+
+
+def test_a_curve_that_shrinks_to_a_point_is_a_dot_in_the_end():
+    from curveflow.movie_stage import Stage
+
+    shrinking = cf.Scene(curve=cf.Circle(1.0), energy=[cf.Length(tension=1.0)], time=cf.Time(10.0))
+    result = cf.run(shrinking)
+    assert result.length[-1] < 1e-3 * result.length[0]
+    last = len(result.time) - 1
+    stage = Stage(result, *movie.coloured(result, None), [0, last], (400, 240))
+    stage.image(last)
+    np.testing.assert_allclose(stage._dot.get_xydata(), [result.position[-1].mean(axis=0)], atol=1e-6)
+    stage.image(0)
+    assert not len(stage._dot.get_xydata())

@@ -1,5 +1,6 @@
 import subprocess
 import sys
+from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -127,3 +128,34 @@ def test_a_shrunk_curve_and_its_curvature_are_seen():
 def test_arc_length_goes_once_around():
     fraction = arc_length_fraction(np.array([1.0, 3.0, 1.0, 3.0]))
     np.testing.assert_allclose(fraction, [0.0, 0.25, 0.5, 0.75, 1.0])
+
+
+def two_densities(first: str = "lipid") -> cf.Result:
+    densities = [cf.Density(name, f"1 + {part}*cos(2*pi*s)", "diffusion") for name, part in ((first, 0.1), ("protein", 0.4))]
+    energy = [cf.Bending(1.0), cf.Local(f"0.5*({first} - 1)^2 + 0.5*(protein - 1)^2")]
+    accuracy = cf.Accuracy(tolerance=1e-3, nodes=32)
+    return cf.run(cf.Scene(curve=cf.Circle(1.0), density=densities, energy=energy, time=cf.Time(0.01), accuracy=accuracy))
+
+
+def test_a_density_is_chosen_by_its_name(tmp_path: Path):
+    result = two_densities()
+    for density, shown in ((None, "lipid"), ("protein", "protein")):
+        figure = result.plot(Figure(), density=density)
+        labels = [axes.get_xlabel() for axes in figure.axes] + [axes.get_ylabel() for axes in figure.axes]
+        assert labels.count(f"{shown} density $\\rho$") == 2
+        path = tmp_path / f"{shown}.svg"
+        result.picture(path, density=density)
+        assert f"{shown} density ρ" in path.read_text()
+    for draw in (result.plot, lambda density: result.picture(tmp_path / "none.png", density=density)):
+        with pytest.raises(ValueError, match="density = 'lipids': .* it has lipid, protein"):
+            draw(density="lipids")
+    assert not (tmp_path / "none.png").exists()
+
+
+def test_long_names_leave_room_for_powers_of_ten():
+    figure = two_densities("a_name_that_goes_on_and_on_until_there_is_no_room_left_for_more_").plot(
+        Figure(figsize=(11, 6.2), layout="constrained")
+    )
+    figure.draw_without_rendering()
+    (state,) = [axes for axes in figure.axes if axes.get_xlabel().startswith("a_name")]
+    assert state.xaxis.label.get_window_extent().width < 0.8 * state.get_window_extent().width

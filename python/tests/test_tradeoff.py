@@ -95,7 +95,7 @@ def test_the_figure_has_both_times(measured: cf.Tradeoff):
     figure = measured.plot(Figure())
     assert len(figure.axes) == 2
     for axes in figure.axes:
-        assert [line.get_label() for line in axes.lines] == list(measured.errors)
+        assert [line.get_label() for line in axes.lines if line.get_marker() == "o"] == list(measured.errors)
         assert [text.get_text() for text in axes.texts] == ["0.01", "0.001", "1e-05"]
     figure.draw_without_rendering()
 
@@ -236,3 +236,18 @@ def test_ladders_in_threads_agree():
         thread.join()
     first, second = results
     np.testing.assert_array_equal(first.error, second.error)
+
+
+def test_errors_below_the_axis_are_marked(circle: cf.Scene):
+    measured = cf.tradeoff(circle, [1e-2])
+    least = 1e-3 * measured.reference.tolerance
+    measured.__dict__["errors"] = {
+        name: least * np.array([[number], [2.0]]) for number, name in enumerate(measured.errors, start=1)
+    }
+    figure = measured.plot(Figure())
+    figure.draw_without_rendering()
+    for axes in figure.axes:
+        marks = [line for line in axes.lines if line.get_marker() == "v"]
+        assert len(marks) == 4 and len({float(mark.get_ydata()[0]) for mark in marks}) == 4
+    legend = figure.axes[0].get_legend()
+    assert legend is not None and "smaller" in [text.get_text() for text in legend.get_texts()]

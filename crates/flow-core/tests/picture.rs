@@ -2,16 +2,17 @@
 #![allow(clippy::unwrap_used)] // a failed test may panic
 #![cfg(feature = "picture")]
 
+mod drawn;
 mod folder;
 mod synthetic;
 
 use std::fs;
 use std::path::PathBuf;
 
-use flow_core::output::picture::{NodalLines, Options, PictureError, check_name, plot, plot_tradeoff};
-use flow_core::run::tradeoff::{Ending, Errors, Reference, Row, RunError, Rung, Span, Tradeoff};
+use flow_core::output::picture::{NodalLines, Options, PictureError, check_name, plot};
 use flow_core::run::{Record, StepLog};
 
+use drawn::assert_inside;
 use folder::Folder;
 
 /// Draws `record` as SVG and PNG; returns the SVG. The files stay if `CURVEFLOW_KEEP_FIGURES` names a folder.
@@ -39,31 +40,6 @@ fn draw(record: &Record, name: &str) -> String {
     svg
 }
 
-/// All points of the lines, circles and anchors of text of an SVG document lie on the page.
-fn assert_inside(svg: &str) {
-    let attributes = |name: &str| {
-        let start = format!(" {name}=\"");
-        let values = svg.split(&start).skip(1).map(|part| part.split('"').next().unwrap());
-        values.map(str::to_owned).collect::<Vec<_>>()
-    };
-    let view = attributes("viewBox")[0].split(' ').map(|n| n.parse().unwrap()).collect::<Vec<f64>>();
-    let assert_at = |value: &str, size: f64| {
-        let value: f64 = value.parse().unwrap();
-        assert!((0.0..=size).contains(&value), "{value} of {size}");
-    };
-    for points in attributes("points") {
-        for point in points.split_whitespace() {
-            let (x, y) = point.split_once(',').unwrap();
-            assert_at(x, view[2]);
-            assert_at(y, view[3]);
-        }
-    }
-    for (names, size) in [(["x", "cx"], view[2]), (["y", "cy"], view[3])] {
-        names.iter().flat_map(|name| attributes(name)).for_each(|value| assert_at(&value, size));
-    }
-    assert!(attributes("font-family").iter().all(|font| font == "DejaVu Sans, sans-serif"));
-}
-
 #[test]
 fn figures_stay_on_the_page() {
     let svg = draw(&synthetic::record(200, 512, &["protein"]), "density");
@@ -73,11 +49,60 @@ fn figures_stay_on_the_page() {
 }
 
 #[test]
+fn one_of_several_densities_is_chosen_by_its_name() {
+    let record = synthetic::record(5, 64, &["lipid", "protein"]);
+    let folder = Folder::new("chosen");
+    let drawn = |name: &str, density: Option<&str>| {
+        let path = folder.file(name);
+        let options = Options { density: density.map(str::to_owned), ..Options::default() };
+        plot(&record, &path, &options).map(|()| texts(&fs::read_to_string(&path).unwrap()))
+    };
+    for (name, density, shown) in [("first.svg", None, "lipid"), ("second.svg", Some("protein"), "protein")] {
+        let labels = drawn(name, density).unwrap();
+        let of_density = labels.iter().filter(|text| text.content == format!("{shown} density ρ")).count();
+        assert_eq!(of_density, 2, "the bar of colours and the axis of the state");
+    }
+    let error = drawn("none.svg", Some("curvature")).err().unwrap();
+    assert_eq!(error.to_string(), "the run has no density `curvature`; it has `lipid`, `protein`");
+}
+
+#[test]
+fn an_empty_title_takes_no_room() {
+    let highest = |title: &str| {
+        let mut record = synthetic::record(5, 64, &["protein"]);
+        title.clone_into(&mut record.title);
+        let svg = draw(&record, "untitled");
+        assert_inside(&svg);
+        texts(&svg)
+            .iter()
+            .filter(|text| text.content == "energy")
+            .map(|text| text.top)
+            .fold(f64::INFINITY, f64::min)
+    };
+    assert!(highest("") < highest("A title"));
+}
+
+#[test]
 fn odd_records_are_drawn() {
-    let mut record = synthetic::record(1, 64, &["a component with a rather long name"]);
+    let mut record = synthetic::record(
+        1,
+        64,
+        &["a component with a name that is as long as the name of a density may be"],
+    );
+    record.densities.push("another component with a name as long as names may be, and longer".to_owned());
     record.title = "A very long title, longer than any page is wide, ".repeat(4);
     record.steps = StepLog::default();
-    draw(&record, "one-frame");
+    assert_inside(&draw(&record, "one-frame"));
+    for text in texts(&draw(&record, "long-names")).iter().filter(|text| text.content.contains(" density ρ"))
+    {
+        assert!(
+            text.top >= 0.0 && text.bottom <= 3600.0,
+            "{}: {} to {}",
+            text.content,
+            text.top,
+            text.bottom
+        );
+    }
     let mut record = synthetic::record(5, 64, &["protein"]);
     record.frames[4].energy = f64::NAN;
     record.frames[4].density[0].fill(0.5);
@@ -178,6 +203,22 @@ fn few_nodes_are_drawn_round() {
     assert!(sides(12) > 150, "{} sides", sides(12));
 }
 
+/// A dot on a line, for a sample that stands alone, stands on its line in the legend too.
+#[test]
+fn dots_on_lines_are_in_the_legend() {
+    let mut record = synthetic::record(3, 64, &[]);
+    record.steps = StepLog::default();
+    let svg = draw(&record, "sparse");
+    let tops = svg.split("<circle").skip(1).filter(|circle| circle.contains(" r=\"24\""));
+    let tops: Vec<f64> = tops
+        .map(|circle| {
+            circle.split_once(" cy=\"").and_then(|(_, y)| y.split('"').next()).unwrap().parse().unwrap()
+        })
+        .collect();
+    let legend = tops.iter().fold(f64::INFINITY, |top, at| top.min(*at));
+    assert_eq!(tops.iter().filter(|at| **at == legend).count(), 2, "{tops:?}");
+}
+
 #[test]
 fn a_constant_state_is_a_dot() {
     let mut record = synthetic::record(2, 64, &["protein"]);
@@ -203,67 +244,4 @@ fn a_figure_needs_a_state_and_a_known_format() {
     assert!(check_name(&path).is_ok());
     record.frames.clear();
     assert!(matches!(plot(&record, &path, &Options::default()), Err(PictureError::NoFrames)));
-}
-
-/// A ladder of decades whose errors are near the tolerance, with runs of `seconds` and more.
-fn ladder(densities: &[&str], seconds: f64) -> Tradeoff {
-    let rung = |k: i32| {
-        let tolerance = 10_f64.powi(-k);
-        let errors = |part: f64| Errors {
-            curve: 0.1 * part * tolerance,
-            curvature: part * tolerance,
-            densities: densities.iter().map(|_| 0.5 * part * tolerance).collect(),
-            energy: 0.02 * part * tolerance,
-            length: 0.0,
-        };
-        let steps = 20 * k as u64;
-        let rung =
-            Rung { nodes: 512, steps, seconds: seconds * f64::from(k), errors: [errors(1.0), errors(0.01)] };
-        Row { tolerance, outcome: Ok(rung) }
-    };
-    Tradeoff {
-        title: "Three-fold protein membrane".to_owned(),
-        densities: densities.iter().map(|&name| name.to_owned()).collect(),
-        span: Span { halfway: 2e-5, end: 9.15, ending: Ending::Equilibrium },
-        reference: Reference { tolerance: 1e-10, at_rounding: false, nodes: 1024, steps: 500, seconds: 9.0 },
-        rows: (2..9).map(rung).collect(),
-    }
-}
-
-/// Draws `ladder` as SVG; returns it.
-fn draw_ladder(ladder: &Tradeoff, name: &str) -> String {
-    let folder = Folder::new(name);
-    let path = folder.file("ladder.svg");
-    plot_tradeoff(ladder, &path, &Options { replace: true, ..Options::default() }).unwrap();
-    fs::read_to_string(&path).unwrap()
-}
-
-#[test]
-fn ladders_are_drawn_with_their_tolerances() {
-    let svg = draw_ladder(&ladder(&["protein"], 0.01), "ladder");
-    assert_inside(&svg);
-    let texts = ["protein", "curvature", "10⁻²", "10⁻⁸", "[ms]", "at rest, t = 9.15", "time and space"];
-    for text in texts {
-        assert!(svg.contains(text), "{text}");
-    }
-    for (seconds, unit) in [(1e-6, "[µs]"), (1.0, "[s]")] {
-        assert!(draw_ladder(&ladder(&[], seconds), "unit").contains(unit));
-    }
-}
-
-#[test]
-fn odd_ladders_are_drawn() {
-    let mut odd = ladder(&["a", "b", "c"], 0.0);
-    odd.rows[1].outcome = Err(RunError::Interrupted);
-    if let Ok(rung) = &mut odd.rows[0].outcome {
-        rung.errors[0].curvature = f64::NAN;
-        rung.errors[1].energy = f64::INFINITY;
-    }
-    assert_inside(&draw_ladder(&odd, "odd-ladder"));
-    odd.rows.truncate(1);
-    assert_inside(&draw_ladder(&odd, "one-rung"));
-    odd.rows.clear();
-    let folder = Folder::new("no-rungs");
-    let path = folder.file("ladder.svg");
-    assert!(matches!(plot_tradeoff(&odd, &path, &Options::default()), Err(PictureError::NoRungs)));
 }

@@ -29,14 +29,20 @@ pub fn write_file(py: Python<'_>, path: FilePath, data: &[u8], replace: bool) ->
     detached(py, || atomic_file::write(&path.0, data, replace))
 }
 
-/// Draws `record` into a PNG or SVG file.
+/// Draws `record`, with one of its densities, into a PNG or SVG file.
 #[pyfunction]
-pub fn picture(py: Python<'_>, record: &Record, path: FilePath, replace: bool) -> PyResult<()> {
+pub fn picture(
+    py: Python<'_>,
+    record: &Record,
+    path: FilePath,
+    density: Option<String>,
+    replace: bool,
+) -> PyResult<()> {
     detached::<_, PictureError>(py, || {
-        let lines = nodal_polylines(&record.core);
+        let lines = nodal_polylines(&record.core, density.as_deref());
         let nodal_lines =
             lines.map(|[preferred_curvature, low, high]| NodalLines { preferred_curvature, low, high });
-        let options = Options { replace, nodal_lines, ..Options::default() };
+        let options = Options { replace, density, nodal_lines, ..Options::default() };
         plot(&record.core, &path.0, &options)
     })
 }

@@ -19,6 +19,9 @@ pub struct Args {
     /// Figure to write, `.png` or `.svg` [default: the result file's name with .png].
     #[arg(short, long, value_name = "PNG|SVG")]
     pub output: Option<PathBuf>,
+    /// Density that colours the curve and is drawn against its curvature [default: the first one].
+    #[arg(long, value_name = "NAME")]
+    pub density: Option<String>,
     /// Replace an existing figure.
     #[arg(long)]
     pub replace: bool,
@@ -32,12 +35,11 @@ pub fn execute(args: &Args) -> Result<(), CliError> {
     let path = args.output.clone().unwrap_or_else(|| with_ending(&args.out, &["h5"], ".png"));
     check_writable(&path, args.replace)?;
     let record = run_so_far(&args.out)?;
-    let nodal_lines = nodal_polylines(&record).map(|[preferred_curvature, low, high]| picture::NodalLines {
-        preferred_curvature,
-        low,
-        high,
-    });
-    let options = picture::Options { replace: args.replace, nodal_lines, ..picture::Options::default() };
+    let nodal_lines = nodal_polylines(&record, args.density.as_deref())
+        .map(|[preferred_curvature, low, high]| picture::NodalLines { preferred_curvature, low, high });
+    let density = args.density.clone();
+    let options =
+        picture::Options { replace: args.replace, density, nodal_lines, ..picture::Options::default() };
     picture::plot(&record, &path, &options)?;
     if args.quiet { Ok(()) } else { print::data(&path.display().to_string()) }
 }

@@ -9,12 +9,12 @@ const POINTS: usize = 200;
 const MARGIN: f64 = 0.25;
 
 /// κ₀(ρ), ρ₋(κ) and ρ₊(κ) as points (ρ, κ) around the final state of `record`; none if its scene has no
-/// agents on the first density.
+/// agents on `density`, or on the first one if none is named.
 #[must_use]
-pub fn nodal_polylines(record: &Record) -> Option<[Vec<(f64, f64)>; 3]> {
+pub fn nodal_polylines(record: &Record, density: Option<&str>) -> Option<[Vec<(f64, f64)>; 3]> {
     let scene = Scene::parse(&record.resolved_scene, "resolved scene").ok()?;
     let agents = scene.energy.agents.as_ref()?;
-    if record.densities.first() != Some(&agents.density) {
+    if density.or(record.densities.first().map(String::as_str)) != Some(agents.density.as_str()) {
         return None;
     }
     let curvature = &record.frames.last()?.curvature;

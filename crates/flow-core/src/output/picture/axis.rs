@@ -69,6 +69,16 @@ impl Axis {
         }
     }
 
+    /// Its low end.
+    pub fn low(&self) -> f64 {
+        self.low
+    }
+
+    /// How much of a linear axis that is `pixels` long a pixel is.
+    pub fn per_pixel(&self, pixels: f64) -> f64 {
+        (self.high - self.low) / pixels
+    }
+
     /// The values that have labels.
     pub fn ticks(&self) -> Vec<f64> {
         if !self.logarithmic {

@@ -1,4 +1,6 @@
-//! The curve at the end of the run, coloured by its first density, with the initial curve behind it.
+//! The curve at the end of the run, coloured by a density, with the initial curve behind it.
+
+use std::f64::consts::PI;
 
 use plotters::prelude::*;
 
@@ -12,6 +14,12 @@ use crate::run::{Frame, Record};
 /// Colours of the bar.
 const COLOURS: i32 = 128;
 const WIDTH: f64 = 8.0;
+const LEAST_WIDTH: f64 = 3.0;
+/// Part of the width of a narrow curve that its line takes; directions in which that is measured.
+const OF_THE_CURVE: f64 = 0.25;
+const DIRECTIONS: i32 = 256;
+/// Points of the curve that are looked at.
+const POINTS: usize = 1024;
 const BAR_GAP: f64 = 24.0;
 const BAR_WIDTH: f64 = 26.0;
 
@@ -21,12 +29,14 @@ pub(super) struct CurvePanel<'a> {
     last: &'a Frame,
     values: &'a [f64],
     bar: Axis,
-    name: String,
+    /// Of the density, if there is one.
+    name: Option<&'a str>,
 }
 
 impl<'a> CurvePanel<'a> {
-    pub fn new(record: &Record, first: &'a Frame, last: &'a Frame) -> Self {
-        let (values, name) = coloured_by(record, last);
+    /// Coloured by the density of this number.
+    pub fn new(record: &'a Record, density: usize, first: &'a Frame, last: &'a Frame) -> Self {
+        let (values, name) = coloured_by(record, density, last);
         let (low, high) = range(values.iter().copied());
         Self { first, last, values, bar: Axis::linear(low, high), name }
     }
@@ -49,10 +59,12 @@ impl<'a> CurvePanel<'a> {
         let panel = Panel::new(page, frame, (x, "x"), (y, "y"))?;
         let initial = Pen::dashed(FAINT, 2.5, 8.0, 6.0);
         panel.line(page, closed(&first.position), initial)?;
-        panel.line(page, closed(&last.position), Pen::solid(INK, WIDTH + 3.0))?;
-        draw_coloured(page, &panel, &last.position, self.values, self.bar)?;
+        let width = line_width(&last.position, x.per_pixel(frame.width()));
+        panel.line(page, closed(&last.position), Pen::solid(INK, width + 3.0))?;
+        draw_coloured(page, &panel, last, self.values, (self.bar, width))?;
         panel.draw_frame(page)?;
-        draw_bar(page, frame, self.bar, &self.name)?;
+        let name = self.name.map(|name| page.density(name, frame.height())).transpose()?;
+        draw_bar(page, frame, self.bar, name.as_deref().unwrap_or("curvature κ"))?;
         let [from, to] = [("initial", first), ("final", last)]
             .map(|(when, frame)| format!("{when}, t = {}", number(frame.time)));
         let entries = [(initial, from.as_str()), (Pen::solid(shade(0.45), WIDTH), &to)];
@@ -64,11 +76,11 @@ impl<'a> CurvePanel<'a> {
     }
 }
 
-/// The field that gives the colour: the first density, or the curvature if there is none.
-fn coloured_by<'a>(record: &Record, frame: &'a Frame) -> (&'a [f64], String) {
-    match (record.densities.first(), frame.density.first()) {
-        (Some(name), Some(density)) => (density, format!("{name} density ρ")),
-        _ => (&frame.curvature, "curvature κ".to_owned()),
+/// The field that gives the colour: the density, or the curvature if there is none.
+fn coloured_by<'a>(record: &'a Record, density: usize, frame: &'a Frame) -> (&'a [f64], Option<&'a str>) {
+    match (record.densities.get(density), frame.density.get(density)) {
+        (Some(name), Some(density)) => (density, Some(name)),
+        _ => (&frame.curvature, None),
     }
 }
 
@@ -85,6 +97,19 @@ fn equal_axes(frame: Rect, curves: &[&[[f64; 2]]]) -> (Axis, Axis) {
     (around(left, right, frame.width()), around(bottom, top, frame.height()))
 }
 
+/// Width of the line of a curve: less where it would fill the inside of a narrow one. What is small in all directions is a dot.
+fn line_width(points: &[[f64; 2]], per_pixel: f64) -> f64 {
+    let each = points.len().div_ceil(POINTS).max(1);
+    let widths = (0..DIRECTIONS).map(|k| {
+        let (sin, cos) = (PI * f64::from(k) / f64::from(DIRECTIONS)).sin_cos();
+        let (low, high) = range_of_positions(points.iter().step_by(each).map(|[x, y]| x * cos + y * sin));
+        (high - low) / per_pixel
+    });
+    let (narrow, wide) = widths
+        .fold((f64::INFINITY, 0.0), |(narrow, wide): (f64, f64), width| (narrow.min(width), wide.max(width)));
+    if wide > WIDTH / OF_THE_CURVE { (OF_THE_CURVE * narrow).clamp(LEAST_WIDTH, WIDTH) } else { WIDTH }
+}
+
 fn closed(points: &[[f64; 2]]) -> impl Iterator<Item = [f64; 2]> {
     points.iter().chain(points.first()).copied()
 }
@@ -97,15 +122,16 @@ fn shade(place: f64) -> RGBColor {
 fn draw_coloured<DB: DrawingBackend>(
     page: &Page<DB>,
     panel: &Panel,
-    points: &[[f64; 2]],
+    frame: &Frame,
     values: &[f64],
-    bar: Axis,
+    (bar, width): (Axis, f64),
 ) -> Drawn<DB> {
+    let points = &frame.position;
     let n = points.len().min(values.len());
     (0..n).try_for_each(|i| {
         let next = (i + 1) % n;
         let colour = shade(bar.place(0.5 * (values[i] + values[next])));
-        panel.line(page, [points[i], points[next]], Pen::solid(colour, WIDTH))
+        panel.line(page, [points[i], points[next]], Pen::solid(colour, width))
     })
 }
 
@@ -120,4 +146,29 @@ fn draw_bar<DB: DrawingBackend>(page: &Page<DB>, beside: Rect, bar: Axis, name: 
         page.root.draw(&Rectangle::new(corners, shade(place(k)).filled()))?;
     }
     panel.draw_frame(page)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+
+    /// Of an ellipse of these half axes in pixels, whose axes are not those of the page.
+    fn width(long: f64, short: f64) -> f64 {
+        let point = |k: i32| {
+            let (sin, cos) = (TAU * f64::from(k) / 256.0).sin_cos();
+            [0.6 * long * cos - 0.8 * short * sin, 0.8 * long * cos + 0.6 * short * sin]
+        };
+        line_width(&(0..256).map(point).collect::<Vec<_>>(), 1.0)
+    }
+
+    #[test]
+    fn a_line_leaves_the_inside_of_its_curve_free() {
+        assert_eq!(width(300.0, 200.0), WIDTH);
+        let narrow = width(300.0, 6.0);
+        assert!((LEAST_WIDTH..0.6 * WIDTH).contains(&narrow), "{narrow}");
+        assert_eq!(width(300.0, 0.0), LEAST_WIDTH);
+        assert_eq!(width(1.0, 1.0), WIDTH, "a dot");
+    }
 }

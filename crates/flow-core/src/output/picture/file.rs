@@ -16,6 +16,9 @@ pub enum PictureError {
     /// The name of the file does not end in `.png` or `.svg`.
     #[error("{}: the name of a figure ends in .png or .svg", .path.display())]
     Format { path: PathBuf },
+    /// The record has no density of this name.
+    #[error("the run has no density `{name}`; {}", there(.densities))]
+    NoDensity { name: String, densities: Vec<String> },
     /// The record holds no state.
     #[error("the run has no saved state to draw: run the scene again")]
     NoFrames,
@@ -31,6 +34,14 @@ pub enum PictureError {
     /// The file could not be written.
     #[error(transparent)]
     Storage(#[from] StorageError),
+}
+
+#[cold]
+fn there(densities: &[String]) -> String {
+    if densities.is_empty() {
+        return "it has none, and its figure shows the curvature".to_owned();
+    }
+    format!("it has `{}`", densities.join("`, `"))
 }
 
 /// Checks that a figure can have the name `path`, so that a long run fails before it starts.

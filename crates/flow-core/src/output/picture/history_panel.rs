@@ -65,8 +65,15 @@ impl HistoryPanel {
                 page.ring(panel.pixel([0.0, series.axis.place(*value)]), RING, series.pen.colour)?;
             }
         }
-        let [x, y] =
-            page.legend([frame.left, frame.top - 24.0], &[(ENERGY, "energy"), (LENGTH, "length")])?;
+        let mut next = [frame.left, frame.top - 24.0];
+        for (series, name) in [(energy, "energy"), (length, "length")] {
+            let dot = [page.px(next[0] + 0.5 * series.pen.sample()), page.px(next[1])];
+            next = page.legend(next, &[(series.pen, name)])?;
+            if !series.sparse(self.time).is_empty() {
+                page.root.draw(&Circle::new((dot[0], dot[1]), page.px(DOT), series.pen.colour.filled()))?;
+            }
+        }
+        let [x, y] = next;
         if starts.iter().any(|(_, _, start)| start.is_some()) {
             page.ring((page.px(x + RING), page.px(y)), RING, INK)?;
             page.text("t = 0", SMALL, [x + 2.0 * RING + 9.0, y], HPos::Left)?;

@@ -15,10 +15,16 @@ pub(super) const LARGE: f64 = 30.0;
 /// Line height of the font in units of its size; `plotters` counts font sizes so.
 const LINE_HEIGHT: f64 = 1.164;
 
+/// Height that a title takes.
+const TITLE: f64 = 56.0;
+
 /// Width of the white around text on lines, and the directions in which the text is drawn for it.
 const HALO: f64 = 2.5;
 const AROUND: [[f64; 2]; 8] =
     [[1.0, 0.0], [0.7, 0.7], [0.0, 1.0], [-0.7, 0.7], [-1.0, 0.0], [-0.7, -0.7], [0.0, -1.0], [0.7, -0.7]];
+
+/// Height of a mark that stands for what lies below.
+pub(super) const MARK: f64 = 15.0;
 
 /// Width of the line of a ring.
 const RING: f64 = 2.5;
@@ -58,6 +64,15 @@ pub(super) struct Pen {
 impl Pen {
     pub const fn solid(colour: RGBColor, width: f64) -> Self {
         Self { colour, width, pattern: Pattern::Solid }
+    }
+
+    /// Length of a sample in a legend: two dashes at least.
+    pub fn sample(self) -> f64 {
+        const SAMPLE: f64 = 38.0;
+        match self.pattern {
+            Pattern::Dashes { dash, gap } => SAMPLE.max(2.0 * dash + gap),
+            _ => SAMPLE,
+        }
     }
 
     pub const fn dashed(colour: RGBColor, width: f64, dash: f64, gap: f64) -> Self {
@@ -112,16 +127,31 @@ impl<DB: DrawingBackend> Page<DB> {
         self.text(text, size, [x, y], align)
     }
 
-    /// The title of the page, cut if it is too long for it.
-    pub fn title(&self, title: &str) -> Drawn<DB> {
-        // Control characters are not allowed in SVG.
-        let mut title: Vec<char> = title.chars().filter(|c| !c.is_control()).collect();
-        let mut text: String = title.iter().collect();
-        while self.width(&text, LARGE)? > SIZE[0] - 80.0 {
-            title.pop();
-            text = title.iter().chain(['…'].iter()).collect();
+    /// The title of the page, cut if it is too long for it. Returns the height that it leaves free: all of its own if it is empty.
+    pub fn title(&self, title: &str) -> Drawn<DB, f64> {
+        let text = self.cut(title, LARGE, SIZE[0] - 80.0)?;
+        if text.trim().is_empty() {
+            return Ok(TITLE);
         }
-        self.text(&text, LARGE, [0.5 * SIZE[0], 38.0], HPos::Center)
+        self.text(&text, LARGE, [0.5 * SIZE[0], 38.0], HPos::Center)?;
+        Ok(0.0)
+    }
+
+    /// What an axis of the density `name` is called, cut to be at most `room` long, with a power of ten as units.
+    pub fn density(&self, name: &str, room: f64) -> Drawn<DB, String> {
+        let rest = self.width(" density ρ  [10⁻¹⁵]", MEDIUM)?;
+        Ok(format!("{} density ρ", self.cut(name, MEDIUM, room - rest)?))
+    }
+
+    /// As much of `text` as is at most `width` wide.
+    pub fn cut(&self, text: &str, size: f64, width: f64) -> Drawn<DB, String> {
+        // Control characters are not allowed in SVG.
+        let mut left: Vec<char> = text.chars().filter(|c| !c.is_control()).collect();
+        let mut text: String = left.iter().collect();
+        while self.width(&text, size)? > width && left.pop().is_some() {
+            text = left.iter().chain(['…'].iter()).collect();
+        }
+        Ok(text)
     }
 
     /// A line through `points` of the back end.
@@ -152,15 +182,32 @@ impl<DB: DrawingBackend> Page<DB> {
         self.root.draw(&Circle::new(at, self.px(radius - RING), WHITE.filled()))
     }
 
+    /// A triangle whose tip points down at a pixel of the back end.
+    pub fn mark_below(&self, (x, y): (i32, i32), colour: RGBColor) -> Drawn<DB> {
+        let (half, height) = (self.px(0.6 * MARK), self.px(MARK));
+        let corners = vec![(x - half, y - height), (x + half, y - height), (x, y)];
+        self.root.draw(&Polygon::new(corners, colour.filled()))
+    }
+
     /// A row of samples, starting at `at`: above a panel it hides nothing. Returns where the next one has its place.
     pub fn legend(&self, [mut x, y]: [f64; 2], entries: &[(Pen, &str)]) -> Drawn<DB, [f64; 2]> {
-        const SAMPLE: f64 = 38.0;
         for (pen, text) in entries {
-            self.line(vec![(self.px(x), self.px(y)), (self.px(x + SAMPLE), self.px(y))], *pen)?;
-            x += SAMPLE + 9.0;
+            self.line(vec![(self.px(x), self.px(y)), (self.px(x + pen.sample()), self.px(y))], *pen)?;
+            x += pen.sample() + 9.0;
             self.text(text, SMALL, [x, y], HPos::Left)?;
             x += self.width(text, SMALL)? + 20.0;
         }
         Ok([x, y])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sample_of_a_dashed_line_has_two_whole_dashes() {
+        assert_eq!(Pen::solid(INK, 4.0).sample(), 38.0);
+        assert_eq!(Pen::dashed(INK, 4.0, 24.0, 12.0).sample(), 60.0);
     }
 }

@@ -6,7 +6,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
 use super::axis::{Axis, LABELS};
-use super::page::{Drawn, GRID, INK, MEDIUM, Page, Pen, SMALL};
+use super::page::{Drawn, GRID, INK, MARK, MEDIUM, Page, Pen, SMALL};
 
 /// Room below a frame for labels and a name.
 const BELOW: f64 = 74.0;
@@ -151,6 +151,21 @@ impl Panel {
         let inside = places.filter(|place| place.iter().all(|place| (0.0..=1.0).contains(place)));
         inside.into_iter().try_for_each(|place| {
             page.root.draw(&Circle::new(self.pixel(place), page.px(radius), colour.filled()))
+        })
+    }
+
+    /// Marks that point down, one on the other at the lower edge of the frame, for what lies below it at `x`.
+    pub fn marks_below<DB: DrawingBackend>(
+        &self,
+        page: &Page<DB>,
+        x: f64,
+        colours: impl IntoIterator<Item = RGBColor>,
+    ) -> Drawn<DB> {
+        let (x, mut y) = self.pixel([self.x.place(x), 0.0]);
+        colours.into_iter().try_for_each(|colour| {
+            page.mark_below((x, y), colour)?;
+            y -= page.px(MARK);
+            Ok(())
         })
     }
 

@@ -6,7 +6,7 @@ use plotters::prelude::DrawingBackend;
 use super::axis::Axis;
 use super::page::{Drawn, FAINT, INK, Page, Pattern, Pen, SEA, SKY, VERMILION};
 use super::panel::{Panel, Rect};
-use crate::run::Frame;
+use crate::run::{Frame, Record};
 
 const INITIAL: Pen = Pen::dashed(FAINT, 2.5, 8.0, 6.0);
 const FINAL: Pen = Pen::solid(INK, 4.0);
@@ -28,25 +28,34 @@ pub struct NodalLines {
 /// The panel; its frame is chosen when its labels are known.
 pub(super) struct StatePanel<'a> {
     x: Axis,
+
     y: Axis,
     last: Vec<[f64; 2]>,
     shows: Shows<'a>,
 }
 
 enum Shows<'a> {
-    /// Density and curvature, with these lines.
-    Plane(Option<&'a NodalLines>),
+    /// Density, of this name, and curvature, with these lines.
+    Plane(Option<&'a str>, Option<&'a NodalLines>),
     /// Curvature over arc length, with that of the initial state.
     Curvature { first: Vec<[f64; 2]> },
 }
 
 impl<'a> StatePanel<'a> {
-    pub fn new(first: &Frame, last: &Frame, lines: Option<&'a NodalLines>) -> Self {
-        if let Some(density) = last.density.first() {
+    /// With the density of this number.
+    pub fn new(
+        record: &'a Record,
+        density: usize,
+        [first, last]: [&Frame; 2],
+        lines: Option<&'a NodalLines>,
+    ) -> Self {
+        // A name that tells nothing apart is left to the bar of colours.
+        let name = record.densities.get(density).filter(|_| record.densities.len() > 1);
+        if let Some(density) = last.density.get(density) {
             let last = pairs(density, &last.curvature);
             // Room for the nodal lines around the state, which ends on them.
             let [x, y] = [0, 1].map(|k| Axis::around(last.iter().map(move |point| point[k]), 0.15));
-            Self { x, y, last, shows: Shows::Plane(lines) }
+            Self { x, y, last, shows: Shows::Plane(name.map(String::as_str), lines) }
         } else {
             let y = Axis::around(first.curvature.iter().chain(&last.curvature).copied(), 0.1);
             let [first, last] = [first, last].map(over_arc_length);
@@ -62,13 +71,14 @@ impl<'a> StatePanel<'a> {
     /// Draws the panel into `frame`.
     pub fn draw<DB: DrawingBackend>(&self, page: &Page<DB>, frame: Rect) -> Drawn<DB> {
         let x_name = match self.shows {
-            Shows::Plane(_) => "density ρ",
-            Shows::Curvature { .. } => "arc length σ / |Γ|",
+            Shows::Plane(Some(name), _) => page.density(name, frame.width())?,
+            Shows::Plane(None, _) => "density ρ".to_owned(),
+            Shows::Curvature { .. } => "arc length σ / |Γ|".to_owned(),
         };
-        let panel = Panel::new(page, frame, (self.x, x_name), (self.y, "curvature κ"))?;
+        let panel = Panel::new(page, frame, (self.x, &x_name), (self.y, "curvature κ"))?;
         let mut entries = Vec::new();
         match &self.shows {
-            Shows::Plane(lines) => {
+            Shows::Plane(_, lines) => {
                 entries.push((FINAL, "final"));
                 for (points, pen, label) in lines.map(styled).into_iter().flatten() {
                     if !points.is_empty() {

@@ -9,7 +9,7 @@ use super::axis::Axis;
 use super::figure::Options;
 use super::file::{self, PictureError};
 use super::numbers::{number, tolerance};
-use super::page::{Drawn, INK, ORANGE, Page, Pattern, Pen, ROSE, SEA, SIZE, SKY, SMALL, VERMILION};
+use super::page::{Drawn, INK, MARK, ORANGE, Page, Pattern, Pen, ROSE, SEA, SIZE, SKY, SMALL, VERMILION};
 use super::panel::{Panel, Rect};
 use super::render::Draw;
 use crate::output::drawn::range;
@@ -87,19 +87,26 @@ impl<'a> Figure<'a> {
         )
     }
 
+    /// Those that have a line: what the flow keeps to the last digit has none.
+    fn drawn(&self) -> impl Iterator<Item = &Series<'a>> {
+        self.series.iter().filter(|series| series.errors.iter().flatten().any(|error| *error > 0.0))
+    }
+
     /// One panel: `at` is 0 halfway, 1 at the end.
     fn panel<DB: DrawingBackend>(&self, page: &Page<DB>, frame: Rect, at: usize, caption: &str) -> Drawn<DB> {
         let x = logarithmic(self.times.iter().copied().filter(|time| *time > 0.0), MARGIN, LEAST_TIMES);
         let name = format!("time of integration  [{}]", self.unit);
-        let y = (self.errors(), "relative error");
-        let panel = Panel::new(page, frame, (x, &name), y)?;
-        for series in &self.series {
+        let y = self.errors();
+        let panel = Panel::new(page, frame, (x, &name), (y, "relative error"))?;
+        for series in self.drawn() {
             let points = || self.times.iter().zip(&series.errors[at]).map(|(time, error)| [*time, *error]);
             panel.line(page, points(), series.pen)?;
             panel.dots(page, points(), series.pen.colour, DOT)?;
         }
         for (k, (asked, _)) in self.rungs.iter().enumerate() {
-            let top = self.series.iter().map(|series| series.errors[at][k]).fold(0.0, f64::max);
+            let top = self.series.iter().map(|series| series.errors[at][k]).fold(y.low(), f64::max);
+            let below = self.drawn().filter(|series| series.errors[at][k] < y.low());
+            panel.marks_below(page, self.times[k], below.map(|series| series.pen.colour))?;
             panel.label(page, [self.times[k], top], &tolerance(*asked))?;
         }
         panel.draw_frame(page)?;
@@ -110,14 +117,16 @@ impl<'a> Figure<'a> {
 impl Draw for Figure<'_> {
     fn draw<DB: DrawingBackend>(&self, page: &Page<DB>) -> Drawn<DB> {
         let Tradeoff { title, span, reference, .. } = self.tradeoff;
-        page.title(title)?;
-        let left = Rect { left: 112.0, top: 156.0, right: 766.0, bottom: 770.0 };
+        let top = 156.0 - page.title(title)?;
+        let left = Rect { left: 112.0, top, right: 766.0, bottom: 770.0 };
         let right = Rect { left: 886.0, right: 1540.0, ..left };
-        // What the flow keeps to the last digit has no line.
-        let drawn =
-            self.series.iter().filter(|series| series.errors.iter().flatten().any(|error| *error > 0.0));
-        let entries: Vec<(Pen, &str)> = drawn.map(|series| (series.pen, series.name)).collect();
-        page.legend([left.left, 92.0], &entries)?;
+        let entries: Vec<(Pen, &str)> = self.drawn().map(|series| (series.pen, series.name)).collect();
+        let [x, y] = page.legend([left.left, top - 64.0], &entries)?;
+        let lowest = self.errors().low();
+        if self.drawn().any(|series| series.errors.iter().flatten().any(|error| *error < lowest)) {
+            page.mark_below((page.px(x + 0.5 * MARK), page.px(y + 0.5 * MARK)), INK)?;
+            page.text("smaller", SMALL, [x + 1.5 * MARK, y], HPos::Left)?;
+        }
         let halfway = format!("half of the energy lost, t = {}", number(span.halfway));
         let end = match span.ending {
             Ending::EndTime => "end",
