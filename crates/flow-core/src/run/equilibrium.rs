@@ -29,7 +29,7 @@ const CREEP: f64 = 100.0;
 /// D counts as far as the energy falls by it: what solves leave in stiff modes dissipates, and moves nothing. Low down rounding makes the
 /// power a matter of chance, and some flows creep on: they stay at rest as long as the mean rate since then would not lose more either,
 /// which, over many steps, is as good as a doubling of time. What steps lose on nodes that follow the curve remaps may give back: see
-/// [`Standstill`].
+/// `Standstill`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Equilibrium {
     tolerance: f64,
