@@ -15,7 +15,7 @@ from .frames import Array
 from .movie_file import Image
 from .history_plot import BLUE, energy_history
 from .periodic import closed, refined
-from .plotting import DOT, plain
+from .plotting import is_dot, plain
 from .scales import fit, from_start, scale_time
 
 if TYPE_CHECKING:
@@ -69,8 +69,7 @@ class Stage:
         self._curve.set_array(0.5 * (value[:-1] + value[1:]))
         time = float(self._result.time[frame])
         self._time.set_text(f"$t$ = {time:.4g}")
-        extents = (float(np.ptp(curve, axis=0).max()) for curve in (points, self._result.position[0]))
-        shrunk = next(extents) < DOT * next(extents)
+        shrunk = is_dot(points, self._result.position[0])
         self._dot.set_data(*(points.mean(axis=0)[:, None] if shrunk else ([], [])))
         past = self._history[0] <= max(time, self._first)
         self._past.set_data(self._history[0][past], self._history[1][past])

@@ -22,7 +22,7 @@ __all__ = ["draw_curve", "draw_history", "draw_nodal_lines", "draw_state", "plot
 _GREEN, _VERMILION = "#009E73", "#D55E00"
 _INITIAL: dict[str, Any] = {"color": "0.5", "linewidth": 1.2, "linestyle": "--"}
 # A curve that is smaller than this part of the initial one is marked by a dot.
-DOT = 0.01
+_DOT = 0.01
 # Letters of the name of a density at a bar of colours, and at an axis, beside which matplotlib may write a power of ten.
 _AT_BAR, _AT_AXIS = 40, 20
 
@@ -62,7 +62,7 @@ def draw_curve(result: Result, axes: Axes, frame: int = -1, density: str | None 
     if np.ptp(value) < CONSTANT * np.abs(value).max():  # colours would show nothing but rounding
         lines.set_clim(*around(value, 0.0))
     axes.add_collection(lines)
-    if np.ptp(curve, axis=0).max() < DOT * np.ptp(initial, axis=0).max():
+    if is_dot(curve, initial):
         axes.plot(*curve.mean(axis=0), "ko", markersize=4)
     axes.set(xlabel="$x$", ylabel="$y$", title=f"$t$ = {result.time[frame]:.4g}")
     axes.set_aspect("equal", adjustable="datalim")
@@ -70,6 +70,11 @@ def draw_curve(result: Result, axes: Axes, frame: int = -1, density: str | None 
     label = "curvature $\\kappa$" if name == "curvature" else _label(name, _AT_BAR)
     axes.figure.colorbar(lines, ax=axes, label=label, shrink=0.8)
     axes.legend(loc="upper right", frameon=False)
+
+
+def is_dot(curve: Array, initial: Array) -> bool:
+    """Whether a curve has shrunk to what only a dot shows beside the initial one; both of shape (points, 2)."""
+    return bool(np.ptp(curve, axis=0).max() < _DOT * np.ptp(initial, axis=0).max())
 
 
 def draw_state(result: Result, axes: Axes, frame: int = -1, density: str | None = None) -> None:

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use flow_core::output::checkpoint::{Ended, Pair, Saving, run_saving};
 use flow_core::output::{StorageError, hdf5_file};
-use flow_core::run::{Record, Simulation, Spending, StopReason, warnings};
+use flow_core::run::{Record, Simulation, StopReason, warnings};
 
 use super::info;
 use crate::error::CliError;
@@ -166,11 +166,7 @@ fn closing_line(record: &Record, seconds: f64) -> String {
         counted(record.counters.steps, "step"),
         seconds,
         // Counters hold those before a restart too, which are no part of the seconds of this command.
-        Spending::ALL
-            .into_iter()
-            .filter(Spending::is_step)
-            .map(|spending| record.seconds[spending])
-            .sum::<f64>(),
+        record.seconds.in_steps(),
     )
 }
 

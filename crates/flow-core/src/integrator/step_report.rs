@@ -22,3 +22,13 @@ pub struct StepReport {
     /// Attempts rejected before it.
     pub rejections: Rejections,
 }
+
+#[cfg(test)]
+impl StepReport {
+    /// A step of these sizes that was taken at once.
+    #[must_use]
+    pub fn taken(time: f64, size: f64, [energy, lost]: [f64; 2], dissipation: f64) -> Self {
+        let (settled_dissipation, rejections) = (dissipation, Rejections::default());
+        Self { time, size, order: 1, energy, lost, dissipation, settled_dissipation, rejections }
+    }
+}

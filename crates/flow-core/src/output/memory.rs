@@ -1,6 +1,5 @@
 //! Whether there is memory for what takes much of it, asked before: a process that runs out of it on the way is ended by the system.
 
-use std::collections::TryReserveError;
 use std::hint::black_box;
 use std::io::{self, ErrorKind};
 
@@ -14,17 +13,6 @@ pub(super) fn check_room(bytes: u64) -> io::Result<()> {
     reserved.map_err(|_| ErrorKind::OutOfMemory.into())
 }
 
-/// All of `values`, which are `length` in number, or less.
-pub(super) fn collected(
-    values: impl Iterator<Item = f64>,
-    length: usize,
-) -> Result<Vec<f64>, TryReserveError> {
-    let mut all = Vec::new();
-    all.try_reserve_exact(length)?;
-    all.extend(values.take(length));
-    Ok(all)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -35,7 +23,5 @@ mod tests {
         for bytes in [1 << 62, u64::MAX] {
             assert_eq!(check_room(bytes).unwrap_err().kind(), ErrorKind::OutOfMemory);
         }
-        assert_eq!(collected([1.5, 2.5].into_iter(), 2).unwrap(), [1.5, 2.5]);
-        assert!(collected([1.5].into_iter(), usize::MAX / 8).is_err());
     }
 }

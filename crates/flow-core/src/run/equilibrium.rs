@@ -106,7 +106,6 @@ pub fn energy_scale(initial: f64, energy: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::integrator::Rejections;
 
     /// Of a flow with these energies and dissipations, from rest at `start`, at times that grow by `ratio`: when it is at rest.
     fn rest(
@@ -121,14 +120,9 @@ mod tests {
         let mut rest = times.filter(|&time| {
             let (size, lost) = (time - last, energy(last) - energy(time));
             last = time;
-            watch.reached(&step(time, size, (energy(time), lost), dissipation(time)))
+            watch.reached(&StepReport::taken(time, size, [energy(time), lost], dissipation(time)))
         });
         rest.next()
-    }
-
-    fn step(time: f64, size: f64, (energy, lost): (f64, f64), dissipation: f64) -> StepReport {
-        let (settled_dissipation, rejections) = (dissipation, Rejections::default());
-        StepReport { time, size, order: 1, energy, lost, dissipation, settled_dissipation, rejections }
     }
 
     /// D = 2λE e^{−2λt}, E∞ = 1.
@@ -186,11 +180,11 @@ mod tests {
     fn a_flow_that_gets_going_again_is_not_at_rest() {
         let mut watch = Equilibrium::new(1e-4, 1.0, 1.0, 1e4);
         let steps =
-            [(20.0, 20.0, (0.5, 0.5), 1e-9), (21.0, 1.0, (0.5, 0.0), 1e-9), (25.0, 4.0, (0.49, 0.01), 1e-3)];
+            [(20.0, 20.0, [0.5, 0.5], 1e-9), (21.0, 1.0, [0.5, 0.0], 1e-9), (25.0, 4.0, [0.49, 0.01], 1e-3)];
         for (time, size, energies, dissipation) in steps {
-            assert!(!watch.reached(&step(time, size, energies, dissipation)));
+            assert!(!watch.reached(&StepReport::taken(time, size, energies, dissipation)));
         }
-        let quiet = |time: &f64| watch.reached(&step(*time, 1.0, (0.49, 0.0), 1e-9));
+        let quiet = |time: &f64| watch.reached(&StepReport::taken(*time, 1.0, [0.49, 0.0], 1e-9));
         let rest = (0..100).map(|step| 26.0 + f64::from(step)).find(quiet);
         assert!(rest.is_some_and(|time| time >= 52.0), "{rest:?}");
     }
@@ -216,7 +210,7 @@ mod tests {
         let taken = (1..100_000).find(|&count| {
             let lost = energy(count - 1) - energy(count);
             let time = 1e3 + 0.05 * f64::from(count);
-            watch.reached(&step(time, 0.05, (energy(count), lost), 1e-4))
+            watch.reached(&StepReport::taken(time, 0.05, [energy(count), lost], 1e-4))
         });
         assert!(taken.is_some_and(|taken| taken < 200), "{taken:?}");
     }
@@ -224,7 +218,7 @@ mod tests {
     #[test]
     fn a_state_without_forces_is_at_rest_at_once() {
         let mut watch = Equilibrium::new(1e-7, 1.0, 0.0, 10.0);
-        assert!(watch.reached(&step(1e-6, 1e-6, (1.0, 0.0), 1e-30)));
+        assert!(watch.reached(&StepReport::taken(1e-6, 1e-6, [1.0, 0.0], 1e-30)));
     }
 
     /// E = e^{−2t}: what is small beside the energy at the time is never all of it, what is small beside the energy lost is.

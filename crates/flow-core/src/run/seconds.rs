@@ -39,12 +39,6 @@ impl Spending {
         Self::Output,
     ];
 
-    /// Whether it is a part of the integration.
-    #[must_use]
-    pub fn is_step(&self) -> bool {
-        matches!(self, Self::Step(_))
-    }
-
     /// The name in result files and in Python.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -132,6 +126,13 @@ impl Seconds {
     #[must_use]
     pub fn total(&self) -> f64 {
         self.spent.iter().sum()
+    }
+
+    /// Seconds of the integration: of all that steps take.
+    #[must_use]
+    pub fn in_steps(&self) -> f64 {
+        let in_steps = Spending::ALL.iter().filter(|spending| matches!(spending, Spending::Step(_)));
+        in_steps.map(|spending| self[*spending]).sum()
     }
 
     /// Seconds of all evaluations of the flow.

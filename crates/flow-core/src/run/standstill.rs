@@ -53,7 +53,6 @@ impl Standstill {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::integrator::Rejections;
 
     /// Of steps that lose `lost` each, every fifth of them after a remap that gives `back`: whether the flow stands still by t = 2000.
     fn stands(lost: f64, back: f64) -> bool {
@@ -62,22 +61,8 @@ mod tests {
         (1..2000).any(|step| {
             energy += if step % 5 == 0 { back } else { 0.0 };
             energy -= lost;
-            watch.reached(&report(f64::from(step), energy, lost), 1e-3)
+            watch.reached(&StepReport::taken(f64::from(step), 1.0, [energy, lost], lost), 1e-3)
         })
-    }
-
-    fn report(time: f64, energy: f64, lost: f64) -> StepReport {
-        let rejections = Rejections::default();
-        StepReport {
-            time,
-            size: 1.0,
-            order: 1,
-            energy,
-            lost,
-            dissipation: lost,
-            settled_dissipation: lost,
-            rejections,
-        }
     }
 
     #[test]

@@ -10,18 +10,12 @@ use crate::run::{Record, Scene};
 
 /// Whether `record` is of the run, as far as it had come, or of another one of the same scene.
 pub(super) fn is_of_scene(record: &Record, scene: &SceneTexts) -> bool {
-    // Of the steps that it may take, one that goes on may have got more.
-    let read = |text: &str| {
-        let scene = Scene::parse(text, "the scene of a run").ok();
-        scene.map(|mut scene| {
-            scene.time.max_steps = None;
-            scene
-        })
-    };
+    let read = |text: &str| Scene::parse(text, "the scene of a run").ok();
     record.resolved_scene == scene.resolved
         || read(&record.resolved_scene)
             .zip(read(&scene.resolved))
-            .is_some_and(|(one, other)| one.first_difference(&other).is_none())
+            // Of the steps that it may take, one that goes on may have got more.
+            .is_some_and(|(one, other)| one.is_but_for_steps(&other))
 }
 
 /// Fails if the file that lies where the run of `checkpoint` is to write its result is neither of the same scene nor the one that the

@@ -5,7 +5,7 @@ use std::io::{self, BufWriter, Write};
 use serde::Serialize;
 
 use super::format::{FOOTER, MAGIC, SceneTexts, VERSION};
-use super::identity::Identity;
+use super::identity::{Identity, Tally};
 use crate::run::{Frame, Memory, Record, Simulation, StepLog};
 
 /// Bytes that are written at once.
@@ -67,12 +67,11 @@ pub fn encode(simulation: &Simulation) -> Vec<u8> {
 
 /// Length, checksum, content. It is encoded twice, first for its length and checksum, which come before it.
 fn section<T: Serialize + ?Sized>(out: &mut impl Write, value: &T) -> io::Result<()> {
-    let tally = Tally { length: 0, checksum: crc32fast::Hasher::new() };
-    let mut tally = BufWriter::with_capacity(BUFFER, tally);
+    let mut tally = BufWriter::with_capacity(BUFFER, Tally::default());
     serialise(value, &mut tally)?;
-    let Tally { length, checksum } = tally.into_inner()?;
-    out.write_all(&length.to_le_bytes())?;
-    out.write_all(&checksum.finalize().to_le_bytes())?;
+    let Identity { bytes, checksum } = tally.into_inner()?.identity();
+    out.write_all(&bytes.to_le_bytes())?;
+    out.write_all(&checksum.to_le_bytes())?;
     serialise(value, out)
 }
 
@@ -80,24 +79,6 @@ fn serialise<T: Serialize + ?Sized>(value: &T, out: &mut impl Write) -> io::Resu
     let mut kept = Kept { out, reason: None };
     let written = postcard::to_io(value, &mut kept).map(drop);
     written.map_err(|error| kept.reason.unwrap_or_else(|| io::Error::other(error)))
-}
-
-/// Counts bytes and sums them up.
-struct Tally {
-    length: u64,
-    checksum: crc32fast::Hasher,
-}
-
-impl Write for Tally {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.length += bytes.len() as u64;
-        self.checksum.update(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
 }
 
 /// Keeps the reason why `out` refused bytes, which the encoder forgets.

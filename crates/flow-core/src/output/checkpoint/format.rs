@@ -101,11 +101,10 @@ impl Checkpoint {
     /// [`OtherScene`], with the first key that differs.
     pub fn take_scene(&mut self, scene: &Scene) -> Result<(), OtherScene> {
         let own = Scene::parse(&self.scene.resolved, "the scene of the checkpoint");
-        let mut own = own.map_err(|_| OtherScene { key: None })?;
+        let own = own.map_err(|_| OtherScene { key: None })?;
         let Some(key) = own.first_difference(scene) else { return Ok(()) };
-        own.time.max_steps = scene.time.max_steps;
         let allowed = scene.time.max_steps.is_none_or(|most| most >= self.memory.steps());
-        if !allowed || own.first_difference(scene).is_some() {
+        if !allowed || !own.is_but_for_steps(scene) {
             return Err(OtherScene { key: Some(key) });
         }
         self.scene = SceneTexts { given: scene.text().to_owned(), resolved: scene.to_toml() };

@@ -1,16 +1,16 @@
 //! Which file it is, by its content: also if it was moved or copied meanwhile.
 
 use std::fs::{self, File};
-use std::io::{self, Read};
+use std::io::{self, Write};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-/// Length and CRC-32 of a file.
+/// Length and CRC-32 of a file, or of a part of one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Identity {
-    bytes: u64,
-    checksum: u32,
+    pub(super) bytes: u64,
+    pub(super) checksum: u32,
 }
 
 impl Identity {
@@ -22,18 +22,33 @@ impl Identity {
         if !fs::metadata(path)?.is_file() {
             return Err(io::ErrorKind::InvalidInput.into()); // a pipe would wait for its other end
         }
-        let (mut file, mut buffer) = (File::open(path)?, [0; 1 << 14]);
-        let (mut bytes, mut checksum) = (0, crc32fast::Hasher::new());
-        loop {
-            match file.read(&mut buffer) {
-                Ok(0) => return Ok(Self { bytes, checksum: checksum.finalize() }),
-                Ok(read) => {
-                    bytes += read as u64;
-                    checksum.update(&buffer[..read]);
-                }
-                Err(reason) if reason.kind() == io::ErrorKind::Interrupted => {}
-                Err(reason) => return Err(reason),
-            }
-        }
+        let mut tally = Tally::default();
+        io::copy(&mut File::open(path)?, &mut tally)?;
+        Ok(tally.identity())
+    }
+}
+
+/// Takes the bytes of which the identity is asked.
+#[derive(Default)]
+pub(super) struct Tally {
+    bytes: u64,
+    checksum: crc32fast::Hasher,
+}
+
+impl Tally {
+    pub fn identity(self) -> Identity {
+        Identity { bytes: self.bytes, checksum: self.checksum.finalize() }
+    }
+}
+
+impl Write for Tally {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.bytes += bytes.len() as u64;
+        self.checksum.update(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
     }
 }

@@ -11,7 +11,6 @@ use super::dataset::{Axis, axis, building, dataset, labelled_axis, write_text};
 use super::layout::{CAUSES, FRAME_VALUES, NAMED_FIELDS, NAMED_VALUES, NODAL_FIELDS, STEP_VALUES};
 use super::meanings::Meaning;
 use super::{provenance, seconds};
-use crate::output::memory::collected;
 use crate::output::rectangle::{check, check_frames};
 use crate::output::{StorageError, atomic_file};
 use crate::run::{Frame, Record, Seconds, Spending};
@@ -151,6 +150,14 @@ fn flat<'a>(
     collected(record.frames.iter().flat_map(field).copied(), record.frames.len() * row)
 }
 
+/// All of `values`, which are `length` in number, or less, if there is memory for so many.
+fn collected(values: impl Iterator<Item = f64>, length: usize) -> Result<Vec<f64>, TryReserveError> {
+    let mut all = Vec::new();
+    all.try_reserve_exact(length)?;
+    all.extend(values.take(length));
+    Ok(all)
+}
+
 /// A file is a set of rectangles: every frame has the same sizes, every step an entry in each list.
 fn check_rectangular(record: &Record) -> Result<(), StorageError> {
     check_frames(record)?;
@@ -164,4 +171,15 @@ fn check_rectangular(record: &Record) -> Result<(), StorageError> {
     check("steps/order", 0, record.steps.order.len(), steps)?;
     check("steps/nodes", 0, record.steps.nodes.len(), steps)?;
     check("steps/rejections", 0, record.steps.rejections.len(), steps)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_values_than_there_is_memory_for_are_refused() {
+        assert_eq!(collected([1.5, 2.5].into_iter(), 2).unwrap(), [1.5, 2.5]);
+        assert!(collected([1.5].into_iter(), usize::MAX / 8).is_err());
+    }
 }

@@ -24,6 +24,13 @@ impl Scene {
         if self.has_values_of(other) { None } else { in_tables(&self.table(), &other.table()) }
     }
 
+    /// Whether it is `other` but for how many steps a run may take (`time.max_steps`).
+    pub(crate) fn is_but_for_steps(&self, other: &Self) -> bool {
+        let mut levelled = self.clone();
+        levelled.time.max_steps = other.time.max_steps;
+        levelled.first_difference(other).is_none()
+    }
+
     fn table(&self) -> Table {
         Table::try_from(self).unwrap_or_default() // every scene can be written as TOML
     }

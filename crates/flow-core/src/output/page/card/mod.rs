@@ -43,7 +43,7 @@ pub fn card(record: &Record) -> String {
 fn head(html: &mut String, record: &Record) {
     let doubts = warnings(record);
     let colour = match record.stop_reason {
-        StopReason::EndTime | StopReason::Equilibrium | StopReason::Contact if !doubts.is_empty() => DOUBTFUL,
+        ref reason if reason.is_success() && !doubts.is_empty() => DOUBTFUL,
         StopReason::EndTime | StopReason::Equilibrium | StopReason::Contact => "#1a7f4b",
         StopReason::Interrupted => DOUBTFUL,
         StopReason::Failed(_) => "#b3261e",
