@@ -32,9 +32,16 @@ impl Clock {
     }
 }
 
-/// From the scheduler's statistics on Linux, in nanoseconds, exact to one tick.
+#[cfg(unix)]
+#[allow(clippy::cast_precision_loss)] // seconds of a measurement
 fn processor_seconds() -> Option<f64> {
-    let statistics = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    let nanoseconds: f64 = statistics.split_whitespace().next()?.parse().ok()?;
-    Some(1e-9 * nanoseconds)
+    use rustix::time::{ClockId, clock_gettime};
+
+    let time = clock_gettime(ClockId::ThreadCPUTime);
+    Some(time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64)
+}
+
+#[cfg(not(unix))]
+fn processor_seconds() -> Option<f64> {
+    None
 }
