@@ -40,6 +40,27 @@ fn solves_do_not_shorten_the_steps() {
     assert!(many < 4 * few, "{few} and {many} steps");
 }
 
+/// A linear part that is as old as a curve four times as stiff let noise of fifty tolerances grow in its shortest waves, and the run
+/// go over to implicit steps of order 1.
+#[test]
+fn of_a_curve_that_shrinks() {
+    let text = "curve.shape = 'ellipse'
+        curve.semi_axes = [1.1, 1.6]
+        energy.bending.rigidity = 0.466
+        energy.bending.preferred_curvature = 1.03
+        energy.length.tension = 1.82
+        time.end = 0.5857
+        time.stop_at_equilibrium = false";
+    let scene = Scene::parse(text, "shrinking").expect("a good scene");
+    let ladder = Ladder::new(&[1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7], None).expect("tolerances");
+    let measured = tradeoff(&scene, &ladder, &mut Quiet).expect("measured");
+    for (tolerance, rung) in measured.rungs() {
+        let (got, steps) = (rung.largest_error() / tolerance, rung.steps);
+        println!("{tolerance:e}: {got:.3} of it in {steps} steps");
+        assert!(got <= MOST && steps <= 90, "{tolerance:e}: {got:.3} of it in {steps} steps");
+    }
+}
+
 #[test]
 fn of_the_smooth_scenes() {
     for name in ["circle", "length_penalty", "incompressible", "membrane_penalty", "figure_eight"] {

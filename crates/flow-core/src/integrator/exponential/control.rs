@@ -29,6 +29,8 @@ const MOST_CONTRACTION: f64 = 0.7;
 
 /// What the corrector may leave of the way to its fixed point, in units of the tolerance: the differences of its polynomials do not see it.
 const LEFT: f64 = 5.0;
+/// Contraction above which Λ is taken anew before its time, if it was less than half of this with Λ as it was.
+const OUTDATED: f64 = 0.1;
 /// Growth of a step beyond which its contraction is not told by that of the one before.
 const MOST_TOLD: f64 = 1.5;
 
@@ -39,6 +41,8 @@ pub(super) struct Stiffness {
     pub limited: u32,
     /// Contraction of the corrector in the last step, and the size of that.
     pub last: (f64, f64),
+    /// Contraction of the first step with the present Λ.
+    pub fresh: f64,
 }
 
 impl Stiffness {
@@ -46,6 +50,11 @@ impl Stiffness {
     fn contraction(&self, step: f64) -> f64 {
         let (contraction, size) = self.last;
         if size > 0.0 { (contraction * (step / size).min(MOST_TOLD)).min(1.0) } else { 0.0 }
+    }
+
+    /// Whether the coefficients of the flow have changed so much since Λ was taken that N has become stiff.
+    pub fn is_part_outdated(&self) -> bool {
+        self.last.0 > OUTDATED.max(2.0 * self.fresh)
     }
 }
 
@@ -139,6 +148,9 @@ impl Exponential {
         let order = self.pace.order;
         let stretch = self.best_stretch;
         self.stiffness.last = (contraction, self.pace.step);
+        if self.part_age == 0 {
+            self.stiffness.fresh = contraction;
+        }
         let next = |order, error: Option<f64>, bias| {
             let growth = error.map_or(0.0, |error| self.growth(error, order, bias));
             Next { order, growth, stretch }

@@ -55,7 +55,7 @@ impl ExponentialMemory {
         self.rates.len() == points
             && self.rates.iter().all(sound)
             && self.part.fits(size)
-            && [contraction, step].iter().all(|value| value.is_finite() && *value >= 0.0)
+            && [contraction, step, self.stiffness.fresh].iter().all(|value| value.is_finite() && *value >= 0.0)
     }
 }
 

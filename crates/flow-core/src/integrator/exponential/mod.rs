@@ -81,7 +81,7 @@ impl Exponential {
 
     /// Takes Λ anew from the last state if it has aged.
     fn renew(&mut self, problem: &mut dyn Problem, counters: &mut Counters) {
-        if self.part_age < OLDEST_PART {
+        if self.part_age < OLDEST_PART && !(self.part_age > 0 && self.stiffness.is_part_outdated()) {
             return;
         }
         counters.right_hand_sides += 1; // the linearisation takes as much
