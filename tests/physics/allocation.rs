@@ -65,7 +65,7 @@ fn steps_with_an_energy_of_positions_do_not_allocate() {
 #[test]
 fn steps_with_a_cut_off_do_not_allocate() {
     let changes =
-        [("energy.adhesion.cutoff", "2.4"), ("energy.area.pressure", "0.3"), ("accuracy.tolerance", "1e-7")];
+        [("energy.adhesion.cutoff", "2.4"), ("energy.area.pressure", "0.3"), ("accuracy.tolerance", "1e-8")];
     assert_eq!(allocating_steps("adhesion", &changes), 0);
 }
 

@@ -51,13 +51,34 @@ fn of_a_curve_that_shrinks() {
         energy.length.tension = 1.82
         time.end = 0.5857
         time.stop_at_equilibrium = false";
-    let scene = Scene::parse(text, "shrinking").expect("a good scene");
-    let ladder = Ladder::new(&[1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7], None).expect("tolerances");
+    measure(text, &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7], 90);
+}
+
+/// What the density does to its curve makes the shortest waves stiff, where exponential steps do not see it before they have grown from
+/// rounding; a density that is carried keeps what that leaves: fifty tolerances, on nine times the nodes.
+#[test]
+fn of_a_density_that_is_carried() {
+    let text = "curve.shape = 'polar'
+        curve.r = '1.306 - 0.0477*cos(3*phi) + 0.14*sin(4*phi)'
+        density = [{ name = 'a', initial = '0.9428 + 0.168*cos(8*pi*s)', mobility = 'none' }]
+        energy.local.expression = '0.265*a*ln(a)'
+        energy.bending = { rigidity = 2.53, preferred_curvature = '-1.6*rho', density = 'a' }
+        energy.length.tension = 2.79
+        flow.normal_mobility = 'area-preserving'
+        time.end = 0.1471
+        time.stop_at_equilibrium = false";
+    measure(text, &[1e-4, 1e-5, 1e-6, 1e-7], 200);
+}
+
+/// Holds the scene `text` to ten times each of the `tolerances`, in at most `most_steps`.
+fn measure(text: &str, tolerances: &[f64], most_steps: u64) {
+    let scene = Scene::parse(text, "dial").expect("a good scene");
+    let ladder = Ladder::new(tolerances, None).expect("tolerances");
     let measured = tradeoff(&scene, &ladder, &mut Quiet).expect("measured");
     for (tolerance, rung) in measured.rungs() {
         let (got, steps) = (rung.largest_error() / tolerance, rung.steps);
         println!("{tolerance:e}: {got:.3} of it in {steps} steps");
-        assert!(got <= MOST && steps <= 90, "{tolerance:e}: {got:.3} of it in {steps} steps");
+        assert!(got <= 10.0 && steps <= most_steps, "{tolerance:e}: {got:.3} of it in {steps} steps");
     }
 }
 

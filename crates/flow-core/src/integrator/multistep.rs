@@ -138,6 +138,10 @@ impl Stepper for Multistep {
         self.stepper_mut().dissipation(problem, dissipation)
     }
 
+    fn confirm(&mut self, problem: &mut dyn Problem) -> Result<(), Rejection> {
+        self.stepper_mut().confirm(problem)
+    }
+
     fn candidate(&mut self) -> &mut [f64] {
         self.stepper_mut().candidate()
     }

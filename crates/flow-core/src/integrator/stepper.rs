@@ -39,6 +39,13 @@ pub trait Stepper {
     fn dissipation(&mut self, _problem: &mut dyn Problem, dissipation: f64) -> f64 {
         dissipation
     }
+    /// Whether the candidate, which `problem` has finished last, solves the formula of the method, as far as only its rate tells.
+    ///
+    /// # Errors
+    /// The cause of the rejection; the step size is then already reduced.
+    fn confirm(&mut self, _problem: &mut dyn Problem) -> Result<(), Rejection> {
+        Ok(())
+    }
     /// The candidate of the last attempt.
     fn candidate(&mut self) -> &mut [f64];
     /// The integrals at the candidate, with their rates there.
@@ -47,7 +54,7 @@ pub trait Stepper {
     fn hold(&mut self, size: f64);
     /// Throws the candidate away for a cause found outside and reduces the step size by `factor`.
     fn refuse(&mut self, factor: f64);
-    /// Accepts the candidate, which `problem` has finished last, with the integrals at it; by the clock the next step is at most
+    /// Accepts the candidate, which has been confirmed, with the integrals at it; by the clock the next step is at most
     /// `most_growth` times as long.
     fn accept(&mut self, problem: &mut dyn Problem, integrals: Integrals, most_growth: f64);
     /// State at a time within the last accepted step.

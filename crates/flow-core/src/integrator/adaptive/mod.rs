@@ -206,6 +206,7 @@ impl<S: Stepper> Adaptive<S> {
                 if imbalance > 1.0 {
                     return Err(self.refuse(Rejection::Error, growth_in_balance(imbalance).max(LEAST_FACTOR)));
                 }
+                self.stepper.confirm(problem)?;
                 self.rest.watch(time, energy, rounding);
                 self.energy = energy;
                 self.stepper.accept(problem, integrals, growth_in_balance(imbalance));

@@ -2,10 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::orders::{HIGHEST_ORDER, MOST_MOMENTS};
+use super::memory::ENOUGH;
+use super::orders::HIGHEST_ORDER;
 use super::substitution::StepClock;
 use super::sums::Correction;
-use super::{Exponential, MOST_CHANGES, weights_at_end};
+use super::{Exponential, MOST_CHANGES, OLDEST_PART, weights_at_end};
 use crate::integrator::Rejection;
 use crate::integrator::clock;
 use crate::integrator::pace::{Next, growth_for, on_scale, shrinking};
@@ -29,10 +30,12 @@ const MOST_CONTRACTION: f64 = 0.7;
 
 /// What the corrector may leave of the way to its fixed point, in units of the tolerance: the differences of its polynomials do not see it.
 const LEFT: f64 = 5.0;
+/// Growth of the contraction, above [`STIFF`] and in a step that is not longer, that tells of errors that grow by themselves …
+const ERUPTION: f64 = 1.5;
+/// … where a second correction changes as much, in units of the tolerance: less may be rounding.
+const SEEN: f64 = 0.1;
 /// Contraction above which Λ is taken anew before its time, if it was less than half of this with Λ as it was.
 const OUTDATED: f64 = 0.1;
-/// Growth of a step beyond which its contraction is not told by that of the one before.
-const MOST_TOLD: f64 = 1.5;
 
 /// What the stiffness of N does to the steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -46,15 +49,20 @@ pub(super) struct Stiffness {
 }
 
 impl Stiffness {
-    /// Contraction of a step of size `step`: in proportion to that, but for a step that grows a lot, of which that says too much.
-    fn contraction(&self, step: f64) -> f64 {
-        let (contraction, size) = self.last;
-        if size > 0.0 { (contraction * (step / size).min(MOST_TOLD)).min(1.0) } else { 0.0 }
-    }
-
     /// Whether the coefficients of the flow have changed so much since Λ was taken that N has become stiff.
     pub fn is_part_outdated(&self) -> bool {
         self.last.0 > OUTDATED.max(2.0 * self.fresh)
+    }
+
+    /// Whether the shortest waves, in which N is stiffer than what the norm sees of it, have grown until it sees them.
+    fn erupts(&self, contraction: f64, step: f64) -> bool {
+        let (last, size) = self.last;
+        contraction > STIFF && step <= size && contraction > ERUPTION * last
+    }
+
+    pub fn is_sound(&self) -> bool {
+        let (contraction, size) = self.last;
+        [contraction, size, self.fresh].iter().all(|value| value.is_finite() && *value >= 0.0)
     }
 }
 
@@ -76,14 +84,27 @@ impl Exponential {
         self.pace.fail(on_scale(factor));
     }
 
-    /// What a second correction would change of the candidate, over what the first one did.
-    pub(super) fn contraction(&mut self) -> f64 {
-        let [mut weights, mut constant] = [[0.0; MOST_MOMENTS]; 2];
-        (weights[0], constant[0]) = (1.0, 1.0);
-        self.change(&[Correction { points: 1, weights, terms: 1, polynomial: constant }]);
+    /// Looks at what a second correction would change of the candidate: over what the first one did, it is the contraction; too much of it
+    /// is an error of the step.
+    pub(super) fn watch_contraction(&mut self) -> Result<(), Rejection> {
+        self.correct_again();
         let again = self.norm.norm(&self.changes[0]);
         self.scratch.iter_mut().zip(&self.candidate).zip(&self.predicted).for_each(|((d, y), p)| *d = y - p);
-        again / self.norm.norm(&self.scratch).max(f64::MIN_POSITIVE)
+        let contraction = again / self.norm.norm(&self.scratch).max(f64::MIN_POSITIVE);
+        if again > SEEN * self.tolerance && self.stiffness.erupts(contraction, self.pace.step) {
+            // With another Λ it may be over; else it is the end of the method.
+            if self.part_age == 0 {
+                self.stiffness.limited += ENOUGH;
+            }
+            self.part_age = OLDEST_PART;
+            self.fail(1.0);
+            return Err(Rejection::Error);
+        }
+        self.stiffness.last = (contraction, self.pace.step);
+        if self.part_age == 0 {
+            self.stiffness.fresh = contraction;
+        }
+        self.hold_to_tolerance(again / LEFT)
     }
 
     /// Finds the clock by which a prediction, through two values of N at least, would have missed least; `correction` is of the kind
@@ -118,18 +139,17 @@ impl Exponential {
         [order, order + 1, neighbours[0], neighbours[1]]
     }
 
-    /// Whether the error of the candidate, and what its corrector has left, are below the tolerance.
+    /// Whether the error of the candidate is below the tolerance.
     pub(super) fn judge(&mut self) -> Result<(), Rejection> {
-        let order = self.pace.order;
-        let contraction = self.stiffness.contraction(self.pace.step);
-        // Where the corrector contracts well, what it leaves is of the size of the differences.
-        let left =
-            if contraction > STIFF { contraction * self.norm.norm(&self.changes[0]) / LEFT } else { 0.0 };
-        let error = self.error(order).map_or(f64::NAN, |error| error.max(left));
+        self.hold_to_tolerance(self.error(self.pace.order).unwrap_or(f64::NAN))
+    }
+
+    /// Throws the attempt away if `error` is above the tolerance.
+    fn hold_to_tolerance(&mut self, error: f64) -> Result<(), Rejection> {
         if error <= self.tolerance {
             return Ok(());
         }
-        let growth = if error.is_finite() { self.growth(error, order, BIAS[1]) } else { 0.0 };
+        let growth = if error.is_finite() { self.growth(error, self.pace.order, BIAS[1]) } else { 0.0 };
         self.fail(shrinking(growth));
         Err(if error.is_finite() { Rejection::Error } else { Rejection::NotFinite })
     }
@@ -144,13 +164,9 @@ impl Exponential {
     }
 
     /// Order and size of the step after an accepted candidate.
-    pub(super) fn plan(&mut self, contraction: f64, most_growth: f64) {
+    pub(super) fn plan(&mut self, most_growth: f64) {
         let order = self.pace.order;
-        let stretch = self.best_stretch;
-        self.stiffness.last = (contraction, self.pace.step);
-        if self.part_age == 0 {
-            self.stiffness.fresh = contraction;
-        }
+        let (stretch, contraction) = (self.best_stretch, self.stiffness.last.0);
         let next = |order, error: Option<f64>, bias| {
             let growth = error.map_or(0.0, |error| self.growth(error, order, bias));
             Next { order, growth, stretch }

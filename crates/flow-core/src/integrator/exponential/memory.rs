@@ -24,7 +24,7 @@ fn local_tolerance(tolerance: f64) -> f64 {
 }
 
 /// Count of steps that the stiffness of the rest has limited, at which an implicit method takes over.
-const ENOUGH: u32 = 16 * super::control::LIMITED;
+pub(super) const ENOUGH: u32 = 16 * super::control::LIMITED;
 
 /// What the exponential method knows besides past states.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,11 +51,10 @@ impl ExponentialMemory {
     /// Whether it belongs to `points` states of `size` entries.
     pub(in crate::integrator) fn fits(&self, points: usize, size: usize) -> bool {
         let sound = |rate: &Vec<f64>| rate.len() == size && rate.iter().all(|value| value.is_finite());
-        let (contraction, step) = self.stiffness.last;
         self.rates.len() == points
             && self.rates.iter().all(sound)
             && self.part.fits(size)
-            && [contraction, step, self.stiffness.fresh].iter().all(|value| value.is_finite() && *value >= 0.0)
+            && self.stiffness.is_sound()
     }
 }
 
@@ -88,6 +87,9 @@ impl Exponential {
             predicted: zero(),
             candidate: zero(),
             predicted_rest: zero(),
+            candidate_rate: zero(),
+            candidate_rest: zero(),
+            candidate_base: zero(),
             changes: std::array::from_fn(|_| zero()),
             scratch: zero(),
         };

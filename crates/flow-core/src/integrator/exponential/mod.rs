@@ -67,6 +67,10 @@ pub struct Exponential {
     candidate: Vec<f64>,
     /// N at the prediction.
     predicted_rest: Vec<f64>,
+    /// f and N at the candidate, and the candidate in the eigenbasis.
+    candidate_rate: Vec<f64>,
+    candidate_rest: Vec<f64>,
+    candidate_base: Vec<f64>,
     /// What the corrector changes, and what it would with a value less of each number that is watched.
     changes: [Vec<f64>; MOST_CHANGES],
     scratch: Vec<f64>,
@@ -159,7 +163,22 @@ impl Exponential {
         sums::correct(pace.step, corrections, moments.blocks(), (predicted_rest, rests), changes);
         changes[..corrections.len()].iter_mut().for_each(|change| part.from_eigenbasis(change));
     }
+
+    /// What a second correction would change of the candidate, into the first of `changes`.
+    fn correct_again(&mut self) {
+        let Self { part, moments, predicted_rest, candidate_rest, changes, pace, .. } = self;
+        let past = std::slice::from_ref(predicted_rest);
+        sums::correct(pace.step, &[CONSTANT], moments.blocks(), (candidate_rest, past), changes);
+        part.from_eigenbasis(&mut changes[0]);
+    }
 }
+
+/// What one value of N misses, all along the step.
+const CONSTANT: Correction = {
+    let [mut weights, mut polynomial] = [[0.0; MOST_MOMENTS]; 2];
+    (weights[0], polynomial[0]) = (1.0, 1.0);
+    Correction { points: 1, weights, terms: 1, polynomial }
+};
 
 /// Weights of the polynomial through `nodes` at u = 1.
 fn weights_at_end(nodes: &[f64]) -> [f64; MOST_MOMENTS] {
@@ -222,6 +241,13 @@ impl Stepper for Exponential {
         self.judge()
     }
 
+    fn confirm(&mut self, problem: &mut dyn Problem) -> Result<(), Rejection> {
+        problem.finished_rate(&self.candidate, &mut self.candidate_rate);
+        let Self { part, candidate, candidate_rate, candidate_rest, candidate_base, .. } = self;
+        decompose(part, candidate, candidate_rate, candidate_rest, candidate_base);
+        self.watch_contraction()
+    }
+
     fn candidate(&mut self) -> &mut [f64] {
         &mut self.candidate
     }
@@ -246,17 +272,15 @@ impl Stepper for Exponential {
         self.fail(factor);
     }
 
-    fn accept(&mut self, problem: &mut dyn Problem, integrals: Integrals, most_growth: f64) {
+    fn accept(&mut self, _: &mut dyn Problem, integrals: Integrals, most_growth: f64) {
         let time = self.time() + self.pace.step;
         self.pace.accept();
         self.rests.rotate_right(1);
         self.bases.rotate_right(1);
-        problem.finished_rate(&self.candidate, &mut self.scratch);
-        self.rates.push(time, &self.scratch);
-        let Self { part, candidate, rates, rests, bases, .. } = self;
-        decompose(part, candidate, rates.state(0), &mut rests[0], &mut bases[0]);
-        let contraction = self.contraction();
-        self.plan(contraction, most_growth);
+        std::mem::swap(&mut self.rests[0], &mut self.candidate_rest);
+        std::mem::swap(&mut self.bases[0], &mut self.candidate_base);
+        self.rates.push(time, &self.candidate_rate);
+        self.plan(most_growth);
         self.states.push(time, &self.candidate);
         self.integrals = integrals;
         self.part_age += 1;
