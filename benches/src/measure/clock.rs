@@ -6,7 +6,7 @@ use std::time::Instant;
 #[derive(Clone, Copy, Debug)]
 pub struct Clock {
     wall: Instant,
-    processor: Option<f64>,
+    processor: f64,
 }
 
 impl Clock {
@@ -19,10 +19,7 @@ impl Clock {
     /// Seconds of processor time since the start; of wall time where the system does not tell.
     #[must_use]
     pub fn seconds(&self) -> f64 {
-        match (self.processor, processor_seconds()) {
-            (Some(start), Some(now)) => now - start,
-            _ => self.wall(),
-        }
+        processor_seconds() - self.processor
     }
 
     /// Seconds of wall time since the start.
@@ -33,15 +30,16 @@ impl Clock {
 }
 
 #[cfg(unix)]
-#[allow(clippy::cast_precision_loss)] // seconds of a measurement
-fn processor_seconds() -> Option<f64> {
+fn processor_seconds() -> f64 {
     use rustix::time::{ClockId, clock_gettime};
 
     let time = clock_gettime(ClockId::ThreadCPUTime);
-    Some(time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64)
+    time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
 }
 
 #[cfg(not(unix))]
-fn processor_seconds() -> Option<f64> {
-    None
+fn processor_seconds() -> f64 {
+    use std::time::SystemTime;
+
+    SystemTime::UNIX_EPOCH.elapsed().map_or(f64::NAN, |time| time.as_secs_f64())
 }
