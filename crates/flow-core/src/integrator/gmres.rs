@@ -33,6 +33,8 @@ pub struct Target<'a> {
     pub goal: f64,
     /// Part of itself below which it shall fall.
     pub reduction: f64,
+    /// Part of itself below which it is to fall if there is room for the vectors that this takes.
+    pub wanted: f64,
     /// Whether its norm is taken with the weights of the problem.
     pub weighted: bool,
 }
@@ -75,7 +77,7 @@ impl Gmres {
         &mut self,
         problem: &mut dyn Problem,
         gamma: f64,
-        Target { norm, goal, reduction, weighted }: Target<'_>,
+        Target { norm, goal, reduction, wanted, weighted }: Target<'_>,
         r: &mut [f64],
         counters: &mut Counters,
     ) -> Solved {
@@ -88,13 +90,14 @@ impl Gmres {
             return Solved { iterations: 0, residual: start, converged: finite };
         }
         let goal = goal.min(reduction * start);
+        let wanted = goal.min(wanted * start);
         self.right.fill(0.0);
         self.right[0] = start;
         self.hold(1);
         scale_into(&mut self.basis[..self.size], 1.0 / start, r);
         let mut iterations = 0;
         let mut residual = start;
-        while iterations < self.hessenberg.len() && residual > goal {
+        while iterations < self.hessenberg.len() && residual > wanted {
             let k = iterations;
             self.hold(k + 2);
             let (known, next) = self.basis.split_at_mut((k + 1) * self.size);

@@ -134,6 +134,10 @@ impl Stepper for Multistep {
         self.stepper_mut().polish(problem, counters)
     }
 
+    fn leave_less(&mut self) {
+        self.stepper_mut().leave_less();
+    }
+
     fn dissipation(&mut self, problem: &mut dyn Problem, dissipation: f64) -> f64 {
         self.stepper_mut().dissipation(problem, dissipation)
     }
@@ -154,8 +158,8 @@ impl Stepper for Multistep {
         self.stepper_mut().hold(size);
     }
 
-    fn refuse(&mut self, factor: f64) {
-        self.stepper_mut().refuse(factor);
+    fn refuse(&mut self, cause: Rejection, factor: f64) {
+        self.stepper_mut().refuse(cause, factor);
     }
 
     fn accept(&mut self, problem: &mut dyn Problem, integrals: Integrals, most_growth: f64) {

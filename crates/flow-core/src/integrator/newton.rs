@@ -59,6 +59,8 @@ pub struct Stage<'a> {
     pub constant: &'a [f64],
     /// Error, in the norm, to which y is wanted.
     pub goal: f64,
+    /// Part of the usual residual that linear systems are to leave.
+    pub residual: f64,
 }
 
 impl Stage<'_> {
@@ -244,7 +246,8 @@ impl NewtonKrylov {
         stage.residual(y, &mut self.correction);
         let weighted = residual == Residual::Weighted;
         let (norm, goal) = (stage.norm, KRYLOV_SHARE * stage.goal);
-        let target = Target { norm, goal, reduction: KRYLOV_REDUCTION, weighted };
+        let (reduction, wanted) = (KRYLOV_REDUCTION, KRYLOV_REDUCTION * stage.residual);
+        let target = Target { norm, goal, reduction, wanted, weighted };
         let solved = self.gmres.solve(problem, stage.gamma, target, &mut self.correction, counters);
         self.effort.solves += 1;
         self.effort.iterations += solved.iterations;

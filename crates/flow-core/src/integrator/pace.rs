@@ -20,6 +20,10 @@ const MOST_BY_CLOCK: f64 = 1.5;
 const BETTER: f64 = 0.25;
 const BEST: f64 = 0.05;
 const WORSE: f64 = 1.1;
+/// Linear systems are solved better by the first factor after a step that what they leave has spoilt, down to the second; also by the
+/// third it grows back.
+const LESS: f64 = 0.01;
+const LEAST_RESIDUAL: f64 = 1e-4;
 
 /// A step whose error was too large is tried again with a part of it in this range, as usual for multistep codes: the estimate is not to
 /// be trusted farther down, and a step that hardly shrinks fails again.
@@ -45,6 +49,11 @@ pub fn shrinking(growth: f64) -> f64 {
     growth.clamp(SHRINKING[0], SHRINKING[1])
 }
 
+/// Whether a step is longer than another one, of which the size is a difference of times.
+pub fn is_longer(step: f64, other: f64) -> bool {
+    step > (1.0 + ON_STEP) * other
+}
+
 /// The next factor below on a geometric scale. Estimates of errors are differences, whose rounding would go on to all
 /// steps; so it goes on only where it tips the scale.
 pub fn on_scale(factor: f64) -> f64 {
@@ -61,6 +70,8 @@ pub struct Pace {
     pub share: f64,
     /// Part of the usual error to which the stages are solved.
     pub exactness: f64,
+    /// Part of the usual residual to which linear systems are solved.
+    pub residual: f64,
     /// Rates of the clocks of the next step, from its start, and of the last one, from its end.
     pub stretch: f64,
     pub last_stretch: f64,
@@ -95,6 +106,7 @@ impl Pace {
             step,
             share: 1.0,
             exactness: 1.0,
+            residual: 1.0,
             stretch: 0.0,
             last_stretch: 0.0,
             steps_at_order: 0,
@@ -127,6 +139,8 @@ impl Pace {
             && self.share <= 1.0
             && self.exactness > 0.0
             && self.exactness <= 1.0
+            && self.residual > 0.0
+            && self.residual <= 1.0
     }
 
     /// After an attempt that was thrown away.
@@ -145,9 +159,16 @@ impl Pace {
         self.exactness = (BETTER * self.exactness).max(BEST);
     }
 
+    /// After an attempt that what linear systems have left in stiff modes has spoilt. A prediction multiplies it, and each solve takes a
+    /// factor of the residual only, of which it may leave the rest in modes that are less stiff, where it is more of an error.
+    pub fn leave_less(&mut self) {
+        self.residual = (LESS * self.residual).max(LEAST_RESIDUAL);
+    }
+
     /// A step is accepted.
     pub fn accept(&mut self) {
         self.exactness = (WORSE * self.exactness).min(1.0);
+        self.residual = (WORSE * self.residual).min(1.0);
         self.last_order = self.order;
         self.steps_at_order += 1;
     }

@@ -34,6 +34,8 @@ pub trait Stepper {
     fn polish(&mut self, _problem: &mut dyn Problem, _counters: &mut Counters) -> bool {
         false
     }
+    /// Leaves less in the linear systems to come: what they left was seen to spoil a candidate.
+    fn leave_less(&mut self) {}
     /// What the energy loses at the candidate along the trajectory of the method: its `dissipation`, but for the error of the
     /// implicit solve.
     fn dissipation(&mut self, _problem: &mut dyn Problem, dissipation: f64) -> f64 {
@@ -52,8 +54,8 @@ pub trait Stepper {
     fn integrals_ahead(&self, rates: [f64; INTEGRALS]) -> Integrals;
     /// Takes a step of size `size` in which the state and the integrals stay.
     fn hold(&mut self, size: f64);
-    /// Throws the candidate away for a cause found outside and reduces the step size by `factor`.
-    fn refuse(&mut self, factor: f64);
+    /// Throws the candidate away for a `cause` found outside and reduces the step size by `factor`.
+    fn refuse(&mut self, cause: Rejection, factor: f64);
     /// Accepts the candidate, which has been confirmed, with the integrals at it; by the clock the next step is at most
     /// `most_growth` times as long.
     fn accept(&mut self, problem: &mut dyn Problem, integrals: Integrals, most_growth: f64);

@@ -18,7 +18,7 @@ use crate::vectors::{distance, largest, motion, noise};
 struct DenseSystem(Mat<f64>);
 
 fn target(norm: &ErrorNorm, goal: f64, reduction: f64) -> Target<'_> {
-    Target { norm, goal, reduction, weighted: false }
+    Target { norm, goal, reduction, wanted: reduction, weighted: false }
 }
 
 impl Problem for DenseSystem {
@@ -106,6 +106,28 @@ fn gmres_stops_at_the_goal() {
         assert!(solved.iterations > last);
         last = solved.iterations;
     }
+}
+
+/// What is wanted beyond the goal is taken as far as there is room; the goal alone tells whether a solve has converged.
+#[test]
+fn gmres_goes_beyond_the_goal_while_there_is_room() {
+    let size = 40;
+    let entries = noise(3, size * size);
+    let mut system = DenseSystem(Mat::from_fn(size, size, |i, j| 0.1 * entries[i * size + j]));
+    let norm = ErrorNorm::new(&system);
+    let mut counters = Counters::default();
+    let right = noise(1, size);
+    let start = norm.norm(&right);
+    let mut solve = |room: usize, wanted: f64| {
+        let target = Target { wanted, ..target(&norm, f64::INFINITY, 0.1) };
+        Gmres::new(size, room).solve(&mut system, 1.0, target, &mut right.clone(), &mut counters)
+    };
+    let plain = solve(size, 0.1);
+    let better = solve(size, 1e-6);
+    assert!(better.converged && better.residual <= 1e-6 * start && better.iterations > plain.iterations);
+    let cramped = solve(plain.iterations, 1e-6);
+    assert!(cramped.converged && cramped.residual == plain.residual);
+    assert!(!solve(plain.iterations - 1, 0.1).converged);
 }
 
 /// The exact inverse up to the condition of I − γJ times rounding.

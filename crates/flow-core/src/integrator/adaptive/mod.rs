@@ -88,7 +88,7 @@ impl<S: Stepper> Adaptive<S> {
             let mut outcome = self.attempt(problem);
             if let Err(cause) = outcome
                 && problem.rests_with_its_energy()
-                && (self.rest.reached(start) || self.idle)
+                && (self.rest.reached(start, start + size) || self.idle)
             {
                 rejections.count(cause);
                 self.counters.rejections.count(cause);
@@ -170,6 +170,9 @@ impl<S: Stepper> Adaptive<S> {
             }
             let before = finish.dissipation();
             finish = self.finish(problem, time);
+            if finish.dissipation() > before {
+                self.stepper.leave_less();
+            }
             if finish.dissipation() > UNMENDED * before {
                 break;
             }
@@ -207,7 +210,7 @@ impl<S: Stepper> Adaptive<S> {
                     return Err(self.refuse(Rejection::Error, growth_in_balance(imbalance).max(LEAST_FACTOR)));
                 }
                 self.stepper.confirm(problem)?;
-                self.rest.watch(time, energy, rounding);
+                self.rest.watch(time, [energy, dissipation], rounding);
                 self.energy = energy;
                 self.stepper.accept(problem, integrals, growth_in_balance(imbalance));
                 problem.accepted(time, self.stepper.integrals());
@@ -218,7 +221,7 @@ impl<S: Stepper> Adaptive<S> {
 
     /// Throws the candidate away.
     fn refuse(&mut self, cause: Rejection, factor: f64) -> Rejection {
-        self.stepper.refuse(factor);
+        self.stepper.refuse(cause, factor);
         cause
     }
 

@@ -6,10 +6,11 @@
 //! Brenan, Campbell & Petzold, Numerical Solution of Initial-Value Problems in DAEs (1996), chapter 5.
 
 mod control;
+mod formula;
 
 use super::clock::Clock;
 use super::error_norm::{ErrorNorm, check_start};
-use super::history::{History, MOST_POINTS, Weights, lagrange};
+use super::history::{History, MOST_POINTS, lagrange};
 use super::integrals::Integrals;
 use super::memory::Memory;
 use super::newton::{Factorisation, NewtonKrylov, NewtonOutcome, Stage};
@@ -129,41 +130,9 @@ impl Bdf {
         }
     }
 
-    fn leading_coefficient(&self) -> f64 {
-        (1..=self.pace.order).map(|i| 1.0 / i as f64).sum()
-    }
-
-    /// The clock of the next step.
-    fn clock(&self) -> Clock {
-        self.pace.clock(self.history.times())
-    }
-
-    /// γ = h/α of the stage y = a + γf(y).
-    fn gamma(&self) -> f64 {
-        let (clock, end) = (self.clock(), self.candidate_time());
-        clock.at(end) * clock.slope(end) / self.leading_coefficient()
-    }
-
     /// Error to which stages are solved.
     fn goal(&self) -> f64 {
         NEWTON_SHARE * self.pace.exactness * self.tolerance
-    }
-
-    fn candidate_time(&self) -> f64 {
-        self.history.times()[0] + self.pace.step
-    }
-
-    /// τ by `clock` at the end of the step, and at the past states.
-    fn stretched(&self, clock: Clock) -> (f64, [f64; MOST_POINTS]) {
-        (clock.at(self.candidate_time()), clock.all(self.history.times()))
-    }
-
-    /// Of the polynomial in τ through the last states, at the end of the step; the derivative by the time.
-    fn predictor(&self, order: usize, clock: Clock) -> Weights {
-        let ((end, times), slope) = (self.stretched(clock), clock.slope(self.candidate_time()));
-        let mut weights = lagrange(end, &times[..=order]);
-        weights.derivative.iter_mut().for_each(|weight| *weight /= slope);
-        weights
     }
 }
 
@@ -202,7 +171,13 @@ impl Stepper for Bdf {
         let shifted: [f64; MOST_POINTS] =
             std::array::from_fn(|i| weights.value[i] - gamma * weights.derivative[i]);
         self.history.combine(&shifted, points, &mut self.constant);
-        let stage = Stage { norm: &self.norm, gamma, constant: &self.constant, goal: self.goal() };
+        let stage = Stage {
+            norm: &self.norm,
+            gamma,
+            constant: &self.constant,
+            goal: self.goal(),
+            residual: self.pace.residual,
+        };
         let outcome = self.newton.solve(problem, &stage, &self.predicted, &mut self.candidate, counters);
         if outcome != NewtonOutcome::Converged {
             self.pace.fail(NEWTON_CUT);
@@ -226,7 +201,13 @@ impl Stepper for Bdf {
     fn settle(&mut self, problem: &mut dyn Problem) -> bool {
         let gamma = self.gamma();
         problem.finished_rate(&self.candidate, &mut self.difference);
-        let stage = Stage { norm: &self.norm, gamma, constant: &self.constant, goal: self.goal() };
+        let stage = Stage {
+            norm: &self.norm,
+            gamma,
+            constant: &self.constant,
+            goal: self.goal(),
+            residual: self.pace.residual,
+        };
         stage.residual(&self.candidate, &mut self.difference);
         let settles = problem.settle(gamma, &mut self.difference);
         if settles {
@@ -241,7 +222,13 @@ impl Stepper for Bdf {
 
     fn polish(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> bool {
         let gamma = self.gamma();
-        let stage = Stage { norm: &self.norm, gamma, constant: &self.constant, goal: self.goal() };
+        let stage = Stage {
+            norm: &self.norm,
+            gamma,
+            constant: &self.constant,
+            goal: self.goal(),
+            residual: self.pace.residual,
+        };
         self.newton.correct(problem, &stage, &mut self.candidate, counters).is_some()
     }
 
@@ -274,7 +261,16 @@ impl Stepper for Bdf {
         &mut self.candidate
     }
 
-    fn refuse(&mut self, factor: f64) {
+    fn leave_less(&mut self) {
+        self.pace.leave_less();
+    }
+
+    fn refuse(&mut self, cause: Rejection, factor: f64) {
+        // The balance closes with a high power of the step: a step like the last one, which closed it, is out of balance by noise.
+        let by_noise = cause == Rejection::EnergyRise || cause == Rejection::Error && !self.grew();
+        if by_noise {
+            self.pace.leave_less();
+        }
         self.pace.fail(factor);
     }
 

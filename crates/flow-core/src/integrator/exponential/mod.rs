@@ -268,7 +268,7 @@ impl Stepper for Exponential {
         self.pace.hold();
     }
 
-    fn refuse(&mut self, factor: f64) {
+    fn refuse(&mut self, _: Rejection, factor: f64) {
         self.fail(factor);
     }
 
