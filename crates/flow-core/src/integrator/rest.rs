@@ -18,15 +18,16 @@ pub struct Rest {
     energy: f64,
     since: f64,
     steps: u32,
-    /// The time at which the dissipation of the last accepted state, from the start on, would have lost the rounding of the energy.
-    still_until: f64,
+    /// Of the last accepted state.
+    dissipation: f64,
+    rounding: f64,
 }
 
 impl Rest {
     /// A watch from a state of energy `energy` at `time`.
     #[must_use]
     pub fn new(time: f64, energy: f64) -> Self {
-        Self { energy, since: time, steps: 0, still_until: 0.0 }
+        Self { energy, since: time, steps: 0, dissipation: f64::INFINITY, rounding: 0.0 }
     }
 
     /// Takes an accepted step to a state of this `energy` and `dissipation`; `rounding` is that of the energy, zero where it does not matter.
@@ -36,14 +37,19 @@ impl Rest {
         } else {
             self.steps = self.steps.saturating_add(1);
         }
-        // No number, where neither rounds nor moves, is no time.
-        self.still_until = (rounding / dissipation).max(0.0);
+        (self.dissipation, self.rounding) = (dissipation, rounding);
     }
 
-    /// Whether the flow is at rest at `time`, or stays so for a step until `end`.
+    /// Whether the flow is at rest at `time`.
     #[must_use]
-    pub fn reached(&self, time: f64, end: f64) -> bool {
-        self.steps >= STEPS && time >= 2.0 * self.since || end <= self.still_until
+    pub fn reached(&self, time: f64) -> bool {
+        self.steps >= STEPS && time >= 2.0 * self.since
+    }
+
+    /// The dissipation of the last accepted state, if from the start until `time` it would lose no more than rounding.
+    #[must_use]
+    pub fn stays_until(&self, time: f64) -> Option<f64> {
+        (self.dissipation * time <= self.rounding).then_some(self.dissipation)
     }
 }
 
@@ -58,7 +64,7 @@ mod tests {
             rest.watch(time, [energy(time), 1.0], 1e-13);
             time *= 1.02;
         }
-        rest.reached(time, time)
+        rest.reached(time)
     }
 
     #[test]
@@ -79,7 +85,7 @@ mod tests {
         for step in 1..100 {
             rest.watch(1.0 + 1e-3 * f64::from(step), [1.0, 1.0], 1e-13);
         }
-        assert!(!rest.reached(1.1, 1.1) && rest.reached(2.0, 2.0));
+        assert!(!rest.reached(1.1) && rest.reached(2.0));
     }
 
     /// Its energy differs from step to step by the errors of these.
@@ -87,15 +93,13 @@ mod tests {
     fn a_flow_that_loses_nothing_any_more_may_stay_until_it_would() {
         let mut rest = Rest::new(0.0, 2.0);
         rest.watch(1.0, [1.0 + 1e-9, 1e-14], 1e-13);
-        assert!(rest.reached(1.0, 9.9) && !rest.reached(1.0, 10.1));
+        assert_eq!((rest.stays_until(9.9), rest.stays_until(10.1)), (Some(1e-14), None));
         rest.watch(2.0, [1.0, 1e-13], 1e-13);
-        assert!(!rest.reached(2.0, 2.1));
+        assert_eq!(rest.stays_until(2.1), None);
     }
 
     #[test]
     fn a_flow_of_which_nothing_is_known_is_not_at_rest() {
-        let mut rest = Rest::new(0.0, 2.0);
-        rest.watch(1.0, [1.0, 0.0], 0.0);
-        assert!(!rest.reached(1.0, 1.1));
+        assert_eq!(Rest::new(0.0, 2.0).stays_until(1e-300), None);
     }
 }

@@ -88,11 +88,11 @@ impl<S: Stepper> Adaptive<S> {
             let mut outcome = self.attempt(problem);
             if let Err(cause) = outcome
                 && problem.rests_with_its_energy()
-                && (self.rest.reached(start, start + size) || self.idle)
+                && let Some(dissipation) = self.rests(start, size)
             {
                 rejections.count(cause);
                 self.counters.rejections.count(cause);
-                outcome = Ok(self.hold(problem, size));
+                outcome = Ok(self.hold(problem, size, dissipation));
             }
             match outcome {
                 Ok((energy, [dissipation, settled_dissipation])) => {
@@ -225,13 +225,18 @@ impl<S: Stepper> Adaptive<S> {
         cause
     }
 
-    /// A step of size `size` in which the state stays: the flow is at rest, and what moves it is rounding.
-    fn hold(&mut self, problem: &mut dyn Problem, size: f64) -> (f64, [f64; 2]) {
+    /// What the state dissipates that may stay where it is for a step from `start`, if it may: nothing, once the flow is at rest.
+    fn rests(&self, start: f64, size: f64) -> Option<f64> {
+        if self.rest.reached(start) || self.idle { Some(0.0) } else { self.rest.stays_until(start + size) }
+    }
+
+    /// A step of size `size` in which the state stays: what moves it is rounding, or would lose no more than that.
+    fn hold(&mut self, problem: &mut dyn Problem, size: f64, dissipation: f64) -> (f64, [f64; 2]) {
         self.stepper.hold(size);
         let time = self.stepper.time();
         self.finish(problem, time); // the candidate is that state
         problem.accepted(time, self.stepper.integrals());
-        (self.energy, [0.0; 2])
+        (self.energy, [dissipation; 2])
     }
 
     /// By how much rounding may change the energy from the last one to `energy`, that of the candidate.
