@@ -159,3 +159,21 @@ fn what_fails_is_named() {
         "{error:?}"
     );
 }
+
+/// Exchange takes the density to zero, by e^{−100} and more: its errors are not to be told in units of that.
+#[test]
+fn a_density_that_has_decayed_has_no_large_errors() {
+    let decays = scene(
+        "
+        curve = { shape = 'ellipse', semi_axes = [2.0, 1.0] }
+        density = [{ name = 'a', initial = '0.8 + 0.1*cos(4*pi*s)', mobility = 'exchange' }]
+        energy = { local.expression = '5*a^2 + 0.02*a_sigma^2', bending.rigidity = 1.0 }
+        time.end = 10.0
+        ",
+    );
+    let measured = tradeoff(&decays, &Ladder::new(&[1e-3, 1e-5], None).unwrap(), &mut Quiet).unwrap();
+    for (tolerance, rung) in measured.rungs() {
+        assert!(rung.largest_error() < 10.0 * tolerance, "{tolerance:e}: {rung:?}");
+    }
+    assert_eq!(measured.rungs().count(), 2);
+}

@@ -1,6 +1,7 @@
 //! The distance of two states of the same flow: `THEORY.md`, eq. (I8).
 
 use super::super::equilibrium::energy_scale;
+use super::super::floors::LEAST_PART_OF_DENSITY;
 use super::super::record::Frame;
 use super::curve_distance::{Curve, distances};
 
@@ -11,7 +12,8 @@ pub struct Errors {
     pub curve: f64,
     /// Of the curvature, in L²(dσ).
     pub curvature: f64,
-    /// Of each density, in L²(dσ), in the order of the scene.
+    /// Of each density, in L²(dσ), in the order of the scene; where that is near zero, relative to a thousandth of the largest that it
+    /// was.
     pub densities: Vec<f64>,
     /// Of the energy; where that is near zero, relative to a thousandth of what was lost.
     pub energy: f64,
@@ -19,19 +21,41 @@ pub struct Errors {
     pub length: f64,
 }
 
+/// What the errors of a run are relative to at least, as its reference tells.
+#[derive(Debug)]
+pub(super) struct Floors {
+    initial_energy: f64,
+    /// Of the norm of each density.
+    densities: Vec<f64>,
+}
+
+impl Floors {
+    /// Those of a run from `start` with `later` states. A density may be zero at the start, or later, or now and then.
+    pub fn of(start: &Frame, later: &[Frame]) -> Self {
+        let largest = |density: usize| {
+            let states = std::iter::once(start).chain(later);
+            states.map(|frame| norm(&frame.density[density], &frame.metric)).fold(0.0, f64::max)
+        };
+        let densities = (0..start.density.len()).map(|density| LEAST_PART_OF_DENSITY * largest(density));
+        Self { initial_energy: start.energy, densities: densities.collect() }
+    }
+}
+
 impl Errors {
     /// Of `frame` against `reference`, which may have other nodes: both are interpolated to the more of them, or, unless all are
     /// equidistant, to those of the reference.
-    pub(super) fn of(frame: &Frame, reference: &Frame, initial_energy: f64) -> Self {
+    pub(super) fn of(frame: &Frame, reference: &Frame, floors: &Floors) -> Self {
         let [frame, reference] = &on_common_nodes(frame, reference);
-        let l2 = |values: &[f64], exact: &[f64]| relative_l2(values, exact, &reference.metric);
+        let l2 = |values: &[f64], exact: &[f64], floor| relative_l2(values, exact, &reference.metric, floor);
         let distances = distances(&Curve::new(frame), &Curve::new(reference));
-        let densities = frame.density.iter().zip(&reference.density);
+        let densities = frame.density.iter().zip(&reference.density).zip(&floors.densities);
+        let energy_scale = energy_scale(floors.initial_energy, reference.energy);
         Self {
             curve: distances.into_iter().fold(0.0, larger) / reference.length,
-            curvature: l2(&frame.curvature, &reference.curvature),
-            densities: densities.map(|(values, exact)| l2(values, exact)).collect(),
-            energy: relative(frame.energy - reference.energy, energy_scale(initial_energy, reference.energy)),
+            // No floor: a closed curve turns by 2π at least, forth or back, so that ‖κ‖ ≥ 2π/√L.
+            curvature: l2(&frame.curvature, &reference.curvature, 0.0),
+            densities: densities.map(|((values, exact), floor)| l2(values, exact, *floor)).collect(),
+            energy: relative(frame.energy - reference.energy, energy_scale),
             length: relative(frame.length - reference.length, reference.length),
         }
     }
@@ -79,13 +103,16 @@ fn relative(difference: f64, scale: f64) -> f64 {
     if scale == 0.0 { difference.abs() } else { (difference / scale).abs() }
 }
 
-/// ‖a − b‖/‖b‖ in L²(dσ), `weight` being the metric.
-fn relative_l2(values: &[f64], exact: &[f64], weight: &[f64]) -> f64 {
-    let norm = |value: &dyn Fn(usize) -> f64| -> f64 {
-        let squares = weight.iter().enumerate().map(|(i, weight)| weight * value(i).powi(2));
-        (squares.sum::<f64>() / weight.len() as f64).sqrt()
-    };
-    relative(norm(&|i| values[i] - exact[i]), norm(&|i| exact[i]))
+/// ‖a − b‖ in units of ‖b‖, of `floor` at least.
+fn relative_l2(values: &[f64], exact: &[f64], metric: &[f64], floor: f64) -> f64 {
+    let difference: Vec<f64> = values.iter().zip(exact).map(|(value, exact)| value - exact).collect();
+    relative(norm(&difference, metric), larger(norm(exact, metric), floor))
+}
+
+/// ‖a‖ in L²(dσ).
+fn norm(values: &[f64], metric: &[f64]) -> f64 {
+    let squares = metric.iter().zip(values).map(|(metric, value)| metric * value.powi(2));
+    (squares.sum::<f64>() / metric.len() as f64).sqrt()
 }
 
 #[cfg(test)]
@@ -109,8 +136,9 @@ mod tests {
 
     #[test]
     fn errors_of_circles_are_those_of_their_radii() {
+        let floors = Floors::of(&Frame { energy: 4.0, ..circle(64, 1.0, 0.0) }, &[]);
         for nodes in [32, 64, 96] {
-            let errors = Errors::of(&circle(64, 1.001, 0.0), &circle(nodes, 1.0, 0.01), 4.0);
+            let errors = Errors::of(&circle(64, 1.001, 0.0), &circle(nodes, 1.0, 0.01), &floors);
             assert!((errors.curve - 1e-3 / TAU).abs() < 1e-14, "{errors:?}");
             assert!((errors.curvature - 1e-3 / 1.001).abs() < 1e-13, "{errors:?}");
             assert!((errors.energy - 1e-3 / 1.001).abs() < 1e-13, "{errors:?}");
@@ -125,10 +153,26 @@ mod tests {
     fn what_is_zero_has_an_absolute_error() {
         let empty =
             |density: f64| Frame { energy: 0.0, density: vec![vec![density; 32]], ..circle(32, 1.0, 0.0) };
-        assert_eq!(Errors::of(&empty(0.0), &empty(0.0), 0.0).energy, 0.0);
-        let errors = Errors::of(&empty(1e-3), &empty(0.0), 0.0);
+        let floors = Floors::of(&empty(0.0), &[empty(0.0)]);
+        assert_eq!(Errors::of(&empty(0.0), &empty(0.0), &floors).energy, 0.0);
+        let errors = Errors::of(&empty(1e-3), &empty(0.0), &floors);
         // In L²(dσ) of a curve of length 2π.
         assert!((errors.densities[0] - 1e-3 * TAU.sqrt()).abs() < 1e-15, "{errors:?}");
+    }
+
+    #[test]
+    fn a_density_near_zero_is_measured_by_the_largest_that_it_was() {
+        let of = |density: f64| Frame { density: vec![vec![density; 32]], ..circle(32, 1.0, 0.0) };
+        // It decays, it grows from nothing, or it comes and goes.
+        for states in [[0.8, 1e-3, 1e-12], [0.0, 0.8, 1e-12], [1e-12, 0.3, 0.8]] {
+            let [start, later @ ..] = states.map(of);
+            let floors = Floors::of(&start, &later);
+            for exact in states {
+                let found = Errors::of(&of(exact + 1e-6), &of(exact), &floors).densities[0];
+                let expected = 1e-6 / exact.max(0.8e-3);
+                assert!((found / expected - 1.0).abs() < 1e-9, "{exact} of {states:?}: {found:.3e}");
+            }
+        }
     }
 
     #[test]

@@ -15,10 +15,10 @@ const MOST_RUNS: usize = 7;
 /// What a run leaves.
 #[derive(Debug)]
 pub(super) struct Outcome {
+    /// The initial state.
+    pub start: Frame,
     /// States at the times of comparison.
     pub frames: [Frame; 2],
-    /// Energy at the start.
-    pub initial_energy: f64,
     pub nodes: usize,
     pub steps: u64,
     pub seconds: f64,
@@ -41,13 +41,12 @@ pub(super) fn once(scene: &Scene, observer: &mut dyn Observer) -> Result<Outcome
     let mut record = run(scene, observer)?;
     ending(&record, scene.time.end)?;
     let (nodes, counters) = (record.nodes(), record.counters);
-    let initial_energy = record.frames[0].energy;
-    let [.., halfway, end] = record.frames.as_mut_slice() else {
+    let [start, .., halfway, end] = record.frames.as_mut_slice() else {
         unreachable!("a run that reached its end has saved three frames");
     };
     Ok(Outcome {
+        start: std::mem::take(start),
         frames: [std::mem::take(halfway), std::mem::take(end)],
-        initial_energy,
         nodes,
         steps: counters.steps,
         seconds: counters.integration_seconds,

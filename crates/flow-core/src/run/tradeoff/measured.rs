@@ -4,7 +4,7 @@ use super::super::observer::Observer;
 use super::super::scene::{Frames, Nodes, Output, Scene};
 use super::super::simulation::run;
 use super::error::{RunError, TradeoffError};
-use super::errors::{Errors, larger};
+use super::errors::{Errors, Floors, larger};
 use super::ladder::Ladder;
 use super::leg::{self, Outcome};
 use super::observer::{LadderObserver, Leg};
@@ -198,6 +198,7 @@ fn climb(
 }
 
 fn measured(run: &Outcome, truth: &Outcome) -> Rung {
-    let errors = [0, 1].map(|at| Errors::of(&run.frames[at], &truth.frames[at], truth.initial_energy));
+    let floors = Floors::of(&truth.start, &truth.frames);
+    let errors = [0, 1].map(|at| Errors::of(&run.frames[at], &truth.frames[at], &floors));
     Rung { nodes: run.nodes, steps: run.steps, seconds: run.seconds, errors }
 }
