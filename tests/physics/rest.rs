@@ -1,7 +1,7 @@
 //! A run ends at rest where the curve is at rest, not where the first fast thing is over.
 
 use curveflow_tests::{assert_close, last, run, scene, shipped};
-use flow_core::run::StopReason;
+use flow_core::run::{Record, StopReason, warnings};
 
 /// The penalty dies at t = 1e-7, the energy then falls from 8.1 to that of a circle in t = 0.1.
 #[test]
@@ -141,4 +141,69 @@ fn errors_of_steps_at_rest_do_not_keep_steps_short() {
         assert_close(last(&record).energy, 122.788, 1e-4);
         assert!(record.counters.steps < most_steps, "{tolerance}: {} steps", record.counters.steps);
     }
+}
+
+/// An ellipse of fixed length on its way to a circle of curvature 0.648523 under ½∫κ² and what no such flow can change.
+fn to_a_circle(energy: &str, mobility: &str, tolerance: &str) -> Record {
+    run(&scene(&format!(
+        "
+        curve = {{ shape = 'ellipse', semi_axes = [2.0, 1.0] }}
+        density = [{{ name = 'a', initial = '1 + 0.1*cos(2*pi*s)', mobility = 'diffusion' }}]
+        energy = {{ {energy} }}
+        flow.normal_mobility = '{mobility}'
+        time = {{ end = 100.0, stop_at_equilibrium = true }}
+        accuracy.tolerance = {tolerance}
+        "
+    )))
+}
+
+/// Beside a constant all that happens is small; but it is all that happens.
+#[test]
+fn constants_of_the_motion_do_not_bring_the_rest_early() {
+    let plain = to_a_circle("local.expression = '0.5*kappa^2 + 0.5*a^2'", "incompressible", "1e-5");
+    for energy in [
+        "local.expression = '1e5 + 0.5*kappa^2 + 0.5*a^2'",
+        "local.expression = '0.5*kappa^2 + 0.5*a^2 - 1e5'",
+        "local.expression = '0.5*(kappa - 500)^2 + 0.5*a^2'",
+        "local.expression = '0.5*kappa^2 + 0.5*(a + 500)^2'",
+        "local.expression = '0.5*a^2', bending = { rigidity = 1.0, preferred_curvature = 500.0 }",
+        "local.expression = '0.5*kappa^2 + 0.5*a^2', length.tension = 1e5",
+    ] {
+        let record = to_a_circle(energy, "incompressible", "1e-5");
+        assert_eq!(record.stop_reason, StopReason::Equilibrium, "{energy}");
+        for (kappa, exact) in last(&record).curvature.iter().zip(&last(&plain).curvature) {
+            assert!((kappa / exact - 1.0).abs() < 1e-4, "{energy}: {kappa} at t = {}", last(&record).time);
+        }
+        let lost = |record: &Record| record.frames[0].energy - last(record).energy;
+        assert_close(lost(&record), lost(&plain), 1e-5);
+        assert!(warnings(&record).is_empty(), "{energy}: {:?}", warnings(&record));
+    }
+}
+
+/// With the area kept the length is free, and what it costs is a tension; the pressure moves nothing.
+#[test]
+fn a_cost_of_what_is_free_is_no_constant() {
+    let rest = |energy: &str| {
+        let record = to_a_circle(energy, "area-preserving", "1e-5");
+        assert_eq!(record.stop_reason, StopReason::Equilibrium, "{energy}");
+        (last(&record).time, last(&record).curvature.clone())
+    };
+    let energy = "local.expression = '0.1*a^2 + 10 + 0.5*kappa^2'";
+    let ((time, plain), (pressed, curvature)) =
+        (rest(energy), rest(&format!("{energy}, area.pressure = 1e3")));
+    assert!(pressed > 0.5 * time, "{pressed} and {time}");
+    for (kappa, exact) in curvature.iter().zip(&plain) {
+        assert!((kappa / exact - 1.0).abs() < 1e-4, "{kappa} and {exact}");
+    }
+}
+
+/// What double precision has left of the energy is not enough for the tolerance.
+#[test]
+fn a_constant_that_hides_the_tolerance_is_told() {
+    let record = to_a_circle("local.expression = '1e9 + 0.5*kappa^2 + 0.5*a^2'", "incompressible", "1e-5");
+    let told = warnings(&record);
+    assert!(
+        matches!(&told[..], [one] if one.contains("of the energy is a constant of the motion")),
+        "{told:?}"
+    );
 }

@@ -177,7 +177,7 @@ impl Stepper for OneStep {
         self.failed = false;
     }
 
-    fn refuse(&mut self, factor: f64) {
+    fn refuse(&mut self, _: Rejection, factor: f64) {
         self.failed = true;
         self.step *= factor;
     }

@@ -5,9 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::standstill::Standstill;
 use crate::integrator::{ENERGY_ROUNDING, StepReport};
 
-/// Part of the energy lost so far that counts as energy scale, where the energy itself is near zero.
-const PART_OF_LOSS: f64 = 1e-3;
-/// … as far as the rest is concerned: a stiff penalty that the initial data break may be a million times the energy of the curve.
+/// Part of the energy lost so far that counts as energy scale, where the energy itself is near zero: a stiff penalty that the initial data break may be a million times the energy of the curve.
 const PART_OF_LOSS_AT_REST: f64 = 1e-6;
 /// Energy below this part of the scale is rounding.
 const ROUNDING: f64 = 1e-15;
@@ -57,10 +55,10 @@ impl Equilibrium {
         }
     }
 
-    /// Takes an accepted step; true if the flow is at rest.
-    pub fn reached(&mut self, step: &StepReport) -> bool {
+    /// Takes an accepted step, after which the flow can change `energy_scale` of its energy; true if it is at rest.
+    pub fn reached(&mut self, step: &StepReport, energy_scale: f64) -> bool {
         let &StepReport { time, size, energy, lost, settled_dissipation: dissipation, .. } = step;
-        let scale = energy.abs().max(PART_OF_LOSS_AT_REST * (self.initial_energy - energy));
+        let scale = energy_scale.max(PART_OF_LOSS_AT_REST * (self.initial_energy - energy));
         // Nothing that double precision can see will happen before the end.
         if dissipation * self.end <= ROUNDING * scale {
             return true;
@@ -97,12 +95,6 @@ fn to_come(power: f64, end: f64) -> f64 {
     if exponent == 0.0 { end.ln() } else { end.ln() * exponent.exp_m1() / exponent }
 }
 
-/// What counts as small of an energy that fell from `initial`.
-#[must_use]
-pub fn energy_scale(initial: f64, energy: f64) -> f64 {
-    energy.abs().max(PART_OF_LOSS * (initial - energy))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -120,7 +112,10 @@ mod tests {
         let mut rest = times.filter(|&time| {
             let (size, lost) = (time - last, energy(last) - energy(time));
             last = time;
-            watch.reached(&StepReport::taken(time, size, [energy(time), lost], dissipation(time)))
+            watch.reached(
+                &StepReport::taken(time, size, [energy(time), lost], dissipation(time)),
+                energy(time).abs(),
+            )
         });
         rest.next()
     }
@@ -182,9 +177,9 @@ mod tests {
         let steps =
             [(20.0, 20.0, [0.5, 0.5], 1e-9), (21.0, 1.0, [0.5, 0.0], 1e-9), (25.0, 4.0, [0.49, 0.01], 1e-3)];
         for (time, size, energies, dissipation) in steps {
-            assert!(!watch.reached(&StepReport::taken(time, size, energies, dissipation)));
+            assert!(!watch.reached(&StepReport::taken(time, size, energies, dissipation), energies[0]));
         }
-        let quiet = |time: &f64| watch.reached(&StepReport::taken(*time, 1.0, [0.49, 0.0], 1e-9));
+        let quiet = |time: &f64| watch.reached(&StepReport::taken(*time, 1.0, [0.49, 0.0], 1e-9), 0.49);
         let rest = (0..100).map(|step| 26.0 + f64::from(step)).find(quiet);
         assert!(rest.is_some_and(|time| time >= 52.0), "{rest:?}");
     }
@@ -210,7 +205,7 @@ mod tests {
         let taken = (1..100_000).find(|&count| {
             let lost = energy(count - 1) - energy(count);
             let time = 1e3 + 0.05 * f64::from(count);
-            watch.reached(&StepReport::taken(time, 0.05, [energy(count), lost], 1e-4))
+            watch.reached(&StepReport::taken(time, 0.05, [energy(count), lost], 1e-4), energy(count))
         });
         assert!(taken.is_some_and(|taken| taken < 200), "{taken:?}");
     }
@@ -218,7 +213,7 @@ mod tests {
     #[test]
     fn a_state_without_forces_is_at_rest_at_once() {
         let mut watch = Equilibrium::new(1e-7, 1.0, 0.0, 10.0);
-        assert!(watch.reached(&StepReport::taken(1e-6, 1e-6, [1.0, 0.0], 1e-30)));
+        assert!(watch.reached(&StepReport::taken(1e-6, 1e-6, [1.0, 0.0], 1e-30), 1.0));
     }
 
     /// E = e^{−2t}: what is small beside the energy at the time is never all of it, what is small beside the energy lost is.

@@ -3,6 +3,7 @@
 mod adaptation;
 mod assembly;
 mod choices;
+mod constant_energy;
 mod culprit;
 mod diagnostics;
 mod energy_density;

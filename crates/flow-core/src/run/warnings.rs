@@ -2,8 +2,11 @@
 
 use std::fmt::{self, Display, Formatter};
 
+use super::constant_energy::energy_scale;
 use super::record::Record;
 use super::scene::Scene;
+use super::simulation::ENERGY_TOLERANCE_SHARE;
+use crate::integrator::ENERGY_ROUNDING;
 
 /// Multiple of the tolerance, relative to the energy, beyond which the balance of energy and dissipation is out: steps that are each
 /// within their bounds have lost it together. On the shipped scenes it is below two.
@@ -16,6 +19,8 @@ pub(super) enum Doubt<'a> {
     Unresolved { unresolved: u64, steps: u64 },
     /// The energy lost and the dissipation are apart by this part of the energy, of a run with these terms from outside its scene.
     OutOfBalance { part: f64, tolerance: f64, own_terms: &'a [String] },
+    /// A constant of the motion in the energy has a rounding of this part of what the flow can change.
+    Drowned { constant: f64, part: f64, tolerance: f64 },
 }
 
 impl Doubt<'_> {
@@ -23,6 +28,7 @@ impl Doubt<'_> {
     pub(super) fn remedy(self) -> &'static str {
         match self {
             Self::Unresolved { .. } => "more accuracy.nodes, or accuracy.nodes = \"auto\"",
+            Self::Drowned { .. } => "an energy without that constant, which moves nothing",
             Self::OutOfBalance { own_terms: [], .. } => "a smaller accuracy.tolerance",
             Self::OutOfBalance { .. } => {
                 "a look at what GradientFlow::check_derivatives says of them, and a smaller accuracy.tolerance only if their \
@@ -49,6 +55,11 @@ impl Display for Doubt<'_> {
                     write!(f, ", perhaps by terms from outside the scene (`{}`)", own_terms.join("`, `"))?;
                 }
             }
+            Self::Drowned { constant, part, tolerance } => write!(
+                f,
+                "{constant:.6e} of the energy is a constant of the motion, whose rounding is {part:.1e} of what the flow can change: more \
+                 than the hundredth of accuracy.tolerance = {tolerance:e} by which steps and rest are judged"
+            )?,
         }
         write!(f, ": take {}", self.remedy())
     }
@@ -62,7 +73,7 @@ pub fn warnings(record: &Record) -> Vec<String> {
 
 /// What makes the result of `record` doubtful.
 pub(super) fn doubts(record: &Record) -> impl Iterator<Item = Doubt<'_>> {
-    [unresolved(record), out_of_balance(record)].into_iter().flatten()
+    [unresolved(record)].into_iter().chain(of_energy(record)).flatten()
 }
 
 /// Of a run most of which its nodes did not resolve.
@@ -71,14 +82,18 @@ fn unresolved(record: &Record) -> Option<Doubt<'_>> {
     (2 * unresolved > steps).then_some(Doubt::Unresolved { unresolved, steps })
 }
 
-/// Of a run that has not lost the energy that it dissipated.
-fn out_of_balance(record: &Record) -> Option<Doubt<'_>> {
-    let (first, last) = (record.frames.first()?, record.frames.last()?);
+/// Of a run that has not lost the energy that it dissipated, or whose energy does not tell.
+fn of_energy(record: &Record) -> [Option<Doubt<'_>>; 2] {
+    let (Some(first), Some(last)) = (record.frames.first(), record.frames.last()) else { return [None; 2] };
     // The scene of a file of another version may not be readable here.
-    let scene = Scene::parse(&record.resolved_scene, "the scene of the result").ok()?;
+    let Ok(scene) = Scene::parse(&record.resolved_scene, "the scene of the result") else { return [None; 2] };
     let tolerance = scene.accuracy.tolerance;
-    let scale = first.energy.abs().max(last.energy.abs());
-    let part = (last.energy_balance - last.remap_error).abs() / scale;
-    let own_terms = &record.own_terms;
-    (part > OUT_OF_BALANCE * tolerance).then_some(Doubt::OutOfBalance { part, tolerance, own_terms })
+    let scale = energy_scale(&scene, record);
+    let largest = scale.of(first.energy).max(scale.of(last.energy));
+    let part = (last.energy_balance - last.remap_error).abs() / largest;
+    let rounding = ENERGY_ROUNDING * last.energy.abs() / largest;
+    let is_drowned = rounding > ENERGY_ROUNDING.max(ENERGY_TOLERANCE_SHARE * tolerance);
+    let out_of_balance = Doubt::OutOfBalance { part, tolerance, own_terms: &record.own_terms };
+    let drowned = Doubt::Drowned { constant: scale.constant(), part: rounding, tolerance };
+    [(part > OUT_OF_BALANCE * tolerance + rounding).then_some(out_of_balance), is_drowned.then_some(drowned)]
 }

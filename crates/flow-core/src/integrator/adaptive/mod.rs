@@ -4,8 +4,8 @@ mod parts;
 
 use super::balance::{BALANCED, ENERGY_ROUNDING, IMBALANCE, growth_in_balance, share_lost};
 use super::{
-    Counters, DISSIPATED, Finish, INTEGRALS, IntegrationError, Problem, Rejection, Rejections, Rest,
-    StepReport, Stepper,
+    Counters, DISSIPATED, EnergyScale, Finish, INTEGRALS, IntegrationError, Problem, Rejection, Rejections,
+    Rest, StepReport, Stepper,
 };
 
 /// Settings of the loop.
@@ -15,7 +15,7 @@ pub struct AdaptiveOptions {
     pub end: f64,
     /// Most accepted steps.
     pub most_steps: u64,
-    /// Part of the energy by which one step's balance of energy and dissipation may be off.
+    /// Part of the energy, as [`EnergyScale`] measures it, by which one step's balance of energy and dissipation may be off.
     pub energy_tolerance: f64,
     /// Whether a gradient may not be the derivative of its energy: then that is looked into where the steps do not get on.
     pub doubts_gradients: bool,
@@ -27,6 +27,7 @@ pub struct Adaptive<S> {
     stepper: S,
     options: AdaptiveOptions,
     energy: f64,
+    scale: EnergyScale,
     rest: Rest,
     /// Whether the last candidate was at rest, and above the last energy by its rounding alone.
     idle: bool,
@@ -60,7 +61,15 @@ impl<S: Stepper> Adaptive<S> {
         let tolerance = options.energy_tolerance;
         assert!(tolerance >= 0.0, "an energy tolerance of {tolerance:?}: it must not be negative");
         let rest = Rest::new(stepper.time(), energy);
-        Self { stepper, options, energy, rest, idle: false, counters }
+        let scale = EnergyScale::new(energy, 0.0);
+        Self { stepper, options, energy, scale, rest, idle: false, counters }
+    }
+
+    /// The same with errors of the energy relative to `scale`: without it they are to the energy itself.
+    #[must_use]
+    pub fn measured_by(mut self, scale: EnergyScale) -> Self {
+        self.scale = scale;
+        self
     }
 
     /// Goes on with a watch that was kept before.
@@ -255,7 +264,7 @@ impl<S: Stepper> Adaptive<S> {
     /// step is too large for a transient that the norm of the state does not see. In units of what is allowed.
     fn imbalance(&self, energy: f64, rounding: f64, integrals: [f64; INTEGRALS]) -> f64 {
         let dissipated = integrals[DISSIPATED] - self.stepper.integrals()[DISSIPATED];
-        let scale = self.energy.abs().max(energy.abs());
+        let scale = self.scale.of(self.energy).max(self.scale.of(energy));
         let allowed = IMBALANCE * self.options.energy_tolerance * scale + rounding;
         (energy - self.energy + dissipated).abs() / allowed.max(f64::MIN_POSITIVE)
     }
@@ -270,8 +279,9 @@ impl<S: Stepper> Adaptive<S> {
     fn is_rough(&mut self, problem: &mut dyn Problem, finish: &Finish, size: f64) -> bool {
         let Finish::Good { energy, .. } = finish else { return false };
         let lost = (self.energy - energy).abs();
-        self.rises(problem, *energy)
-            || finish.dissipation() * size
-                > ROUGH * lost + UNSEEN * self.options.energy_tolerance * energy.abs()
+        // What is lost is known to rounding, which a constant of the motion makes larger than what matters.
+        let unseen = UNSEEN * self.options.energy_tolerance * self.scale.of(*energy);
+        let unseen = unseen.max(ENERGY_ROUNDING * energy.abs());
+        self.rises(problem, *energy) || finish.dissipation() * size > ROUGH * lost + unseen
     }
 }

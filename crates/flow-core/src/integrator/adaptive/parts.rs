@@ -1,7 +1,7 @@
 //! What a loop holds, to read.
 
 use super::{Adaptive, AdaptiveOptions};
-use crate::integrator::{Counters, INTEGRALS, Rest, Stepper};
+use crate::integrator::{Counters, EnergyScale, INTEGRALS, Rest, Stepper};
 
 impl<S: Stepper> Adaptive<S> {
     /// The watch over the energy.
@@ -25,6 +25,12 @@ impl<S: Stepper> Adaptive<S> {
     #[must_use]
     pub fn energy(&self) -> f64 {
         self.energy
+    }
+
+    /// What errors of the energy are relative to.
+    #[must_use]
+    pub fn energy_scale(&self) -> EnergyScale {
+        self.scale
     }
 
     /// The settings.

@@ -30,6 +30,7 @@ impl Simulation {
     /// Lets `stepper`, which stands at a state of this energy on the nodes in use, take the steps.
     pub(super) fn go_on_by(&mut self, stepper: Multistep, energy: f64, counters: Counters) {
         let options = AdaptiveOptions { end: self.next_stop(), ..*self.integration.options() };
-        self.integration = Adaptive::new(stepper, options, energy, counters);
+        let scale = self.integration.energy_scale();
+        self.integration = Adaptive::new(stepper, options, energy, counters).measured_by(scale);
     }
 }

@@ -177,7 +177,8 @@ impl Simulation {
     }
 
     fn at_rest(&mut self, report: &StepReport) -> bool {
-        self.equilibrium.as_mut().is_some_and(|watch| watch.reached(report))
+        let energy_scale = self.integration.energy_scale().of(report.energy);
+        self.equilibrium.as_mut().is_some_and(|watch| watch.reached(report, energy_scale))
     }
 
     fn tell(&mut self, report: &StepReport, observer: &mut dyn Observer) -> ControlFlow<()> {

@@ -7,7 +7,6 @@ use super::discretised::Discretised;
 use crate::energies::TermFault;
 use crate::integrator::{Factorisation, Finish, Multistep, Problem, Stepper};
 use crate::run::adaptation::{Look, Plan, Way};
-use crate::run::equilibrium::energy_scale;
 use crate::run::failure::Failure;
 use crate::run::mesh::Mesh;
 use crate::run::resolution::unresolved;
@@ -111,7 +110,7 @@ impl Simulation {
         };
         let error = new_energy - energy;
         if !resolves_more(&plan, &self.on.mesh)
-            && error.abs() > self.tolerance * energy_scale(self.start.energy, energy)
+            && error.abs() > self.tolerance * self.integration.energy_scale().with_loss(energy)
         {
             return Err(None);
         }

@@ -14,6 +14,7 @@ use crate::integrator::{
     Adaptive, AdaptiveOptions, Clocked, Counters, DISSIPATED, Finish, INTEGRALS, Integrals, Multistep,
     Problem, Stopwatch,
 };
+use crate::run::constant_energy::energy_scale;
 use crate::run::culprit::Culprit;
 use crate::run::equilibrium::Equilibrium;
 use crate::run::own_terms::OwnTerms;
@@ -118,12 +119,13 @@ impl Simulation {
             stop_reason: StopReason::EndTime,
             provenance: Provenance::here(),
         };
+        let scale = energy_scale(scene, &record);
         let mut simulation = Self {
             equilibrium: scene
                 .time
                 .stop_at_equilibrium
                 .then(|| Equilibrium::new(rest_tolerance(scene), energy, integral_rates[DISSIPATED], end)),
-            integration: Adaptive::new(stepper, options, energy, counters),
+            integration: Adaptive::new(stepper, options, energy, counters).measured_by(scale),
             gauges,
             adaptation,
             misses_data: scene.accuracy.nodes != Nodes::Auto

@@ -1,9 +1,9 @@
 //! The distance of two states of the same flow: `THEORY.md`, eq. (I8).
 
-use super::super::equilibrium::energy_scale;
 use super::super::floors::LEAST_PART_OF_DENSITY;
 use super::super::record::Frame;
 use super::curve_distance::{Curve, distances};
+use crate::integrator::EnergyScale;
 
 /// Relative errors of a state, as measured against the reference at the same time.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,7 +15,7 @@ pub struct Errors {
     /// Of each density, in L²(dσ), in the order of the scene; where that is near zero, relative to a thousandth of the largest that it
     /// was.
     pub densities: Vec<f64>,
-    /// Of the energy; where that is near zero, relative to a thousandth of what was lost.
+    /// Of the energy, without constants of the motion; where that is near zero, relative to a thousandth of what was lost.
     pub energy: f64,
     /// Of the length.
     pub length: f64,
@@ -24,20 +24,20 @@ pub struct Errors {
 /// What the errors of a run are relative to at least, as its reference tells.
 #[derive(Debug)]
 pub(super) struct Floors {
-    initial_energy: f64,
+    energy: EnergyScale,
     /// Of the norm of each density.
     densities: Vec<f64>,
 }
 
 impl Floors {
-    /// Those of a run from `start` with `later` states. A density may be zero at the start, or later, or now and then.
-    pub fn of(start: &Frame, later: &[Frame]) -> Self {
+    /// Those of a run from `start` with `later` states, whose energy has this scale. A density may be zero at the start, or later, or now and then.
+    pub fn of(start: &Frame, later: &[Frame], energy: EnergyScale) -> Self {
         let largest = |density: usize| {
             let states = std::iter::once(start).chain(later);
             states.map(|frame| norm(&frame.density[density], &frame.metric)).fold(0.0, f64::max)
         };
         let densities = (0..start.density.len()).map(|density| LEAST_PART_OF_DENSITY * largest(density));
-        Self { initial_energy: start.energy, densities: densities.collect() }
+        Self { energy, densities: densities.collect() }
     }
 }
 
@@ -49,7 +49,7 @@ impl Errors {
         let l2 = |values: &[f64], exact: &[f64], floor| relative_l2(values, exact, &reference.metric, floor);
         let distances = distances(&Curve::new(frame), &Curve::new(reference));
         let densities = frame.density.iter().zip(&reference.density).zip(&floors.densities);
-        let energy_scale = energy_scale(floors.initial_energy, reference.energy);
+        let energy_scale = floors.energy.with_loss(reference.energy);
         Self {
             curve: distances.into_iter().fold(0.0, larger) / reference.length,
             // No floor: a closed curve turns by 2π at least, forth or back, so that ‖κ‖ ≥ 2π/√L.
@@ -136,7 +136,7 @@ mod tests {
 
     #[test]
     fn errors_of_circles_are_those_of_their_radii() {
-        let floors = Floors::of(&Frame { energy: 4.0, ..circle(64, 1.0, 0.0) }, &[]);
+        let floors = Floors::of(&circle(64, 1.0, 0.0), &[], EnergyScale::new(4.0, 0.0));
         for nodes in [32, 64, 96] {
             let errors = Errors::of(&circle(64, 1.001, 0.0), &circle(nodes, 1.0, 0.01), &floors);
             assert!((errors.curve - 1e-3 / TAU).abs() < 1e-14, "{errors:?}");
@@ -153,7 +153,7 @@ mod tests {
     fn what_is_zero_has_an_absolute_error() {
         let empty =
             |density: f64| Frame { energy: 0.0, density: vec![vec![density; 32]], ..circle(32, 1.0, 0.0) };
-        let floors = Floors::of(&empty(0.0), &[empty(0.0)]);
+        let floors = Floors::of(&empty(0.0), &[empty(0.0)], EnergyScale::new(0.0, 0.0));
         assert_eq!(Errors::of(&empty(0.0), &empty(0.0), &floors).energy, 0.0);
         let errors = Errors::of(&empty(1e-3), &empty(0.0), &floors);
         // In L²(dσ) of a curve of length 2π.
@@ -166,7 +166,7 @@ mod tests {
         // It decays, it grows from nothing, or it comes and goes.
         for states in [[0.8, 1e-3, 1e-12], [0.0, 0.8, 1e-12], [1e-12, 0.3, 0.8]] {
             let [start, later @ ..] = states.map(of);
-            let floors = Floors::of(&start, &later);
+            let floors = Floors::of(&start, &later, EnergyScale::new(4.0, 0.0));
             for exact in states {
                 let found = Errors::of(&of(exact + 1e-6), &of(exact), &floors).densities[0];
                 let expected = 1e-6 / exact.max(0.8e-3);

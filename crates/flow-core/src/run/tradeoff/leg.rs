@@ -1,11 +1,13 @@
 //! One run of a ladder: a scene to the common end, with its states at the times of comparison.
 
+use super::super::constant_energy::energy_scale;
 use super::super::observer::Observer;
 use super::super::record::{Frame, Record, StopReason};
 use super::super::scene::{Frames, Nodes, Output, Scene};
 use super::super::simulation::run;
 use super::error::RunError;
 use super::span::{Ending, Span};
+use crate::integrator::EnergyScale;
 
 /// Runs that take less time in all than this are repeated, as often as that allows but …
 const LEAST_SECONDS: f64 = 0.5;
@@ -17,6 +19,8 @@ const MOST_RUNS: usize = 7;
 pub(super) struct Outcome {
     /// The initial state.
     pub start: Frame,
+    /// What errors of the energy are relative to.
+    pub energy_scale: EnergyScale,
     /// States at the times of comparison.
     pub frames: [Frame; 2],
     pub nodes: usize,
@@ -41,11 +45,13 @@ pub(super) fn once(scene: &Scene, observer: &mut dyn Observer) -> Result<Outcome
     let mut record = run(scene, observer)?;
     ending(&record, scene.time.end)?;
     let (nodes, counters) = (record.nodes(), record.counters);
+    let energy_scale = energy_scale(scene, &record);
     let [start, .., halfway, end] = record.frames.as_mut_slice() else {
         unreachable!("a run that reached its end has saved three frames");
     };
     Ok(Outcome {
         start: std::mem::take(start),
+        energy_scale,
         frames: [std::mem::take(halfway), std::mem::take(end)],
         nodes,
         steps: counters.steps,

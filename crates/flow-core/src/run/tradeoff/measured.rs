@@ -198,7 +198,7 @@ fn climb(
 }
 
 fn measured(run: &Outcome, truth: &Outcome) -> Rung {
-    let floors = Floors::of(&truth.start, &truth.frames);
+    let floors = Floors::of(&truth.start, &truth.frames, truth.energy_scale);
     let errors = [0, 1].map(|at| Errors::of(&run.frames[at], &truth.frames[at], &floors));
     Rung { nodes: run.nodes, steps: run.steps, seconds: run.seconds, errors }
 }
