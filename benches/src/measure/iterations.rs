@@ -34,7 +34,8 @@ fn count(case: Case, solver: &str, gamma: f64, y: &[f64]) -> usize {
     for r in &mut r {
         *r *= gamma;
     }
-    let target = Target { norm: &norm, goal: f64::INFINITY, reduction: REDUCTION, weighted: true };
+    let target =
+        Target { norm: &norm, goal: f64::INFINITY, reduction: REDUCTION, wanted: REDUCTION, weighted: true };
     let mut gmres = Gmres::new(y.len(), MOST);
     gmres.solve(&mut *problem, gamma, target, &mut r, &mut Counters::default()).iterations
 }

@@ -72,7 +72,7 @@ impl Formula for Esdirk {
             // The rate changes little from stage to stage.
             self.guess.copy_from_slice(&self.constant);
             add_scaled(&mut self.guess, gamma, &self.rates[index - 1]);
-            let stage = Stage { norm, gamma, constant: &self.constant, goal };
+            let stage = Stage { norm, gamma, constant: &self.constant, goal, residual: 1.0 };
             let outcome = self.newton.solve(problem, &stage, &self.guess, &mut self.stage, counters);
             if outcome != NewtonOutcome::Converged {
                 return false;

@@ -146,7 +146,7 @@ impl Stepper for OneStep {
         }
         self.error_norm = self.norm.norm(&self.error) / self.tolerance;
         if !self.error_norm.is_finite() {
-            self.refuse(0.5);
+            self.refuse(Rejection::NotFinite, 0.5);
             return Err(Rejection::NotFinite);
         }
         if self.error_norm > 1.0 {

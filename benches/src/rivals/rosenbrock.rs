@@ -135,7 +135,7 @@ impl Formula for Rosenbrock {
             let solved = self.gmres.solve(
                 problem,
                 gamma,
-                Target { norm, goal, reduction: KRYLOV_REDUCTION, weighted: false },
+                Target { norm, goal, reduction: KRYLOV_REDUCTION, wanted: KRYLOV_REDUCTION, weighted: false },
                 &mut u,
                 counters,
             );
