@@ -180,23 +180,6 @@ fn constants_of_the_motion_do_not_bring_the_rest_early() {
     }
 }
 
-/// With the area kept the length is free, and what it costs is a tension; the pressure moves nothing.
-#[test]
-fn a_cost_of_what_is_free_is_no_constant() {
-    let rest = |energy: &str| {
-        let record = to_a_circle(energy, "area-preserving", "1e-5");
-        assert_eq!(record.stop_reason, StopReason::Equilibrium, "{energy}");
-        (last(&record).time, last(&record).curvature.clone())
-    };
-    let energy = "local.expression = '0.1*a^2 + 10 + 0.5*kappa^2'";
-    let ((time, plain), (pressed, curvature)) =
-        (rest(energy), rest(&format!("{energy}, area.pressure = 1e3")));
-    assert!(pressed > 0.5 * time, "{pressed} and {time}");
-    for (kappa, exact) in curvature.iter().zip(&plain) {
-        assert!((kappa / exact - 1.0).abs() < 1e-4, "{kappa} and {exact}");
-    }
-}
-
 /// What double precision has left of the energy is not enough for the tolerance.
 #[test]
 fn a_constant_that_hides_the_tolerance_is_told() {
