@@ -149,7 +149,9 @@ class Scene(_Checked):
         Raises:
             IndexError: there is no such frame.
             SceneError: the frame has more nodes.
+            TypeError: ``result`` is no :class:`Result`.
         """
+        _check_result(result)
         curve = Points(result.position[frame], turning_number=result.scene.curve.turning_number)
         known = result.density
         density = [replace(one, initial=known[one.name][frame]) if one.name in known else one for one in self.density]
@@ -163,10 +165,7 @@ class Scene(_Checked):
             SceneError: this version cannot read the scene stored in the result file.
             TypeError: ``result`` is no :class:`Result`.
         """
-        from .result import Result
-
-        if not isinstance(result, Result):
-            raise TypeError(f"result is {result!r:.60}, but it must be a curveflow.Result: curveflow.open(path)")
+        _check_result(result)
         return result.scene
 
     def with_values(self, values: Mapping[str, object]) -> Scene:
@@ -236,3 +235,11 @@ class Scene(_Checked):
 def scenes() -> list[str]:
     """Return the names of the scenes that come with the package, for :meth:`Scene.shipped`."""
     return [name for name, _ in _curveflow.shipped()]
+
+
+def _check_result(result: object) -> None:
+    """Raise TypeError unless ``result`` is a Result: its path, and that of a scene, are easily taken for it."""
+    from .result import Result
+
+    if not isinstance(result, Result):
+        raise TypeError(f"result is {result!r:.60}, but it must be a curveflow.Result: curveflow.open(path)")

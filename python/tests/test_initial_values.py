@@ -59,6 +59,12 @@ def test_a_scene_starts_where_another_ended(gauge, exact):
         scene.starting_from(half, 10_000)
 
 
+@pytest.mark.parametrize("wrong", ["circle.h5", cf.Scene.shipped("circle"), None])
+def test_a_scene_starts_from_a_result_only(wrong):
+    with pytest.raises(TypeError, match="it must be a curveflow.Result: curveflow.open"):
+        cf.Scene.shipped("circle").starting_from(wrong)
+
+
 def test_noise_is_a_start_like_any_other():
     noise = 0.9 + 0.01 * np.random.default_rng(1).standard_normal(64)
     scene = cf.Scene.shipped("three_fold").with_values({"time.end": 1e-3, "density.0.initial": noise.tolist()})

@@ -53,6 +53,27 @@ fn what_a_run_was_to_replace_it_replaces_when_it_goes_on() {
     assert_eq!(folder.names(), ["out.h5", "scene.toml"]);
 }
 
+/// Before its first checkpoint a run has left nothing but its lock.
+#[test]
+fn a_run_that_has_just_begun_is_told() {
+    let folder = Folder::new("begun");
+    assert_eq!(code(&folder.call(&["run", "circle", "-q", "-o", "old.h5"])), 0);
+    let told = |name: &str| said(&folder.call(&["info", name]));
+    assert!(!told("old.h5").contains("goes on"), "{}", told("old.h5"));
+    for (name, replace) in [("old.h5", true), ("out.h5", false)] {
+        let mut run = folder.long(name);
+        let mut run = if replace { run.arg("--replace") } else { &mut run }.spawn().unwrap();
+        wait_for(&folder.0.join(format!("{name}.lock")));
+        std::thread::sleep(std::time::Duration::from_millis(50));
+        let seen = told(name);
+        run.kill().unwrap();
+        run.wait().unwrap();
+        assert!(seen.contains(&format!("a run to {name} goes on, which has written nothing yet")), "{seen}");
+        assert_eq!(seen.contains("this is the result that is there"), replace, "{seen}");
+        assert!(!told(name).contains("goes on"), "{}", told(name));
+    }
+}
+
 /// Killed after it was stopped and had gone on.
 #[test]
 fn a_run_is_shown_as_far_as_it_has_come() {

@@ -3,14 +3,23 @@
 use std::path::Path;
 
 use flow_core::output::StorageError;
-use flow_core::output::checkpoint::{SoFar, so_far};
+use flow_core::output::checkpoint::{Lock, SoFar, so_far};
 use flow_core::run::Record;
 
 use crate::print;
 
 /// The result at `path`, or what its run has so far, which is said.
 pub fn run_so_far(path: &Path) -> Result<Record, StorageError> {
-    let SoFar { record, checkpoint, successor } = so_far(path)?;
+    let found = so_far(path);
+    let shows_a_checkpoint = matches!(&found, Ok(found) if found.checkpoint.or(found.successor).is_some());
+    if !shows_a_checkpoint && Lock::is_held(path) {
+        print::talk(&format!(
+            "note: a run to {} goes on, which has written nothing yet{}",
+            path.display(),
+            if found.is_ok() { "; this is the result that is there" } else { "" }
+        ));
+    }
+    let SoFar { record, checkpoint, successor } = found?;
     if let Some(time) = checkpoint {
         print::talk(&format!(
             "note: the run to {} is not over; this is its newest checkpoint, at t = {time:.6e} (if nobody runs it any more, \

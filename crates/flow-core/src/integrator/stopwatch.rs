@@ -234,6 +234,10 @@ impl<P: Problem> Problem for Clocked<'_, P> {
         self.problem.energy_rounding(y)
     }
 
+    fn is_gradient_exact(&mut self, y: &[f64]) -> Option<bool> {
+        self.problem.is_gradient_exact(y)
+    }
+
     fn finished_rate(&mut self, y: &[f64], rate: &mut [f64]) {
         self.problem.finished_rate(y, rate);
     }

@@ -31,6 +31,13 @@ impl Lock {
         Ok(lock)
     }
 
+    /// Whether a run has the lock of the result file `result`, as far as can be told without making one.
+    #[must_use]
+    pub fn is_held(result: &Path) -> bool {
+        let Ok(file) = File::open(beside(result, ".lock")) else { return false };
+        matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock))
+    }
+
     /// Why the file system, which has no locks, cannot tell others that a run writes here; none if it can.
     #[must_use]
     pub fn missing(&self) -> Option<&io::Error> {
@@ -98,7 +105,9 @@ mod tests {
         let lock = Lock::of(&result).unwrap();
         assert!(lock.missing().is_none());
         assert!(matches!(Lock::of(&result), Err(StorageError::Busy { .. })));
+        assert!(Lock::is_held(&result));
         drop(lock);
+        assert!(!Lock::is_held(&result));
         assert!(!beside(&result, ".lock").exists());
     }
 }
