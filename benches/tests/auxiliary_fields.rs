@@ -124,7 +124,8 @@ fn krylov_iterations_end_at_once_for_the_family_of_the_band() {
         let (mut problem, y) = factorised(&scene(AGENTS, 128, derivative), gamma);
         let mut norm = ErrorNorm::new(&problem);
         norm.rescale(&problem, &y);
-        let target = Target { norm: &norm, goal: f64::INFINITY, reduction: 1e-8, weighted: true };
+        let target =
+            Target { norm: &norm, goal: f64::INFINITY, reduction: 1e-8, wanted: 1e-8, weighted: true };
         let mut gmres = Gmres::new(problem.size(), 40);
         let mut r = right_side(&problem);
         let solved = gmres.solve(&mut problem, gamma, target, &mut r, &mut Counters::default());
