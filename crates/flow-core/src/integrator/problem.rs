@@ -100,9 +100,8 @@ pub trait Problem {
     /// Puts the candidate `y` back onto the constraints; evaluates what a finished step must know.
     fn finish(&mut self, time: f64, y: &mut [f64]) -> Finish;
     /// Whether the energy tells that the flow is at rest: true if f vanishes wherever the energy no longer falls, as in a gradient
-    /// flow. A step that fails once the energy has stayed the same to rounding while the time doubled, that fails for the rounding
-    /// of an energy that hardly falls, or until whose end the dissipation could lose no more than rounding, is then taken with the
-    /// state held as it is. Where f may move the state along at the same
+    /// flow. A step that fails once the energy has stayed the same to rounding while the time doubled, or that fails for the rounding
+    /// of an energy that hardly falls, is then taken with the state held as it is. Where f may move the state along at the same
     /// energy (an oscillator, a constant energy), that would be wrong by as much as f moves it: such a step is tried again, and
     /// fails with an error if it must.
     fn rests_with_its_energy(&self) -> bool {

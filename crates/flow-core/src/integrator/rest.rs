@@ -10,46 +10,33 @@ const STEPS: u32 = 8;
 /// The flow is at rest to rounding once the energy has not changed by more than its rounding while the time doubled, in
 /// many steps. It may go on all the same, and does so as long as the steps find a way down; but a step that fails
 /// there fails on rounding, and the state may stay where it is.
-///
-/// So it may where all that the flow would lose until the end of such a step, by its dissipation, is rounding. Errors of the steps may
-/// then change the energy by more: densities that are only carried along have a state of rest for each way to lie on the curve.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rest {
     energy: f64,
     since: f64,
     steps: u32,
-    /// Of the last accepted state.
-    dissipation: f64,
-    rounding: f64,
 }
 
 impl Rest {
     /// A watch from a state of energy `energy` at `time`.
     #[must_use]
     pub fn new(time: f64, energy: f64) -> Self {
-        Self { energy, since: time, steps: 0, dissipation: f64::INFINITY, rounding: 0.0 }
+        Self { energy, since: time, steps: 0 }
     }
 
-    /// Takes an accepted step to a state of this `energy` and `dissipation`; `rounding` is that of the energy, zero where it does not matter.
-    pub fn watch(&mut self, time: f64, [energy, dissipation]: [f64; 2], rounding: f64) {
+    /// Takes an accepted step; `rounding` is that of the energy.
+    pub fn watch(&mut self, time: f64, energy: f64, rounding: f64) {
         if (energy - self.energy).abs() > rounding {
             *self = Self::new(time, energy);
         } else {
             self.steps = self.steps.saturating_add(1);
         }
-        (self.dissipation, self.rounding) = (dissipation, rounding);
     }
 
     /// Whether the flow is at rest at `time`.
     #[must_use]
     pub fn reached(&self, time: f64) -> bool {
         self.steps >= STEPS && time >= 2.0 * self.since
-    }
-
-    /// The dissipation of the last accepted state, if from the start until `time` it would lose no more than rounding.
-    #[must_use]
-    pub fn stays_until(&self, time: f64) -> Option<f64> {
-        (self.dissipation * time <= self.rounding).then_some(self.dissipation)
     }
 }
 
@@ -61,7 +48,7 @@ mod tests {
         let mut rest = Rest::new(0.0, energy(0.0));
         let mut time = 1e-9;
         while time < 100.0 {
-            rest.watch(time, [energy(time), 1.0], 1e-13);
+            rest.watch(time, energy(time), 1e-13);
             time *= 1.02;
         }
         rest.reached(time)
@@ -81,25 +68,10 @@ mod tests {
     #[test]
     fn many_steps_within_a_short_time_are_no_rest() {
         let mut rest = Rest::new(0.0, 2.0);
-        rest.watch(1.0, [1.0, 1.0], 1e-13);
+        rest.watch(1.0, 1.0, 1e-13);
         for step in 1..100 {
-            rest.watch(1.0 + 1e-3 * f64::from(step), [1.0, 1.0], 1e-13);
+            rest.watch(1.0 + 1e-3 * f64::from(step), 1.0, 1e-13);
         }
         assert!(!rest.reached(1.1) && rest.reached(2.0));
-    }
-
-    /// Its energy differs from step to step by the errors of these.
-    #[test]
-    fn a_flow_that_loses_nothing_any_more_may_stay_until_it_would() {
-        let mut rest = Rest::new(0.0, 2.0);
-        rest.watch(1.0, [1.0 + 1e-9, 1e-14], 1e-13);
-        assert_eq!((rest.stays_until(9.9), rest.stays_until(10.1)), (Some(1e-14), None));
-        rest.watch(2.0, [1.0, 1e-13], 1e-13);
-        assert_eq!(rest.stays_until(2.1), None);
-    }
-
-    #[test]
-    fn a_flow_of_which_nothing_is_known_is_not_at_rest() {
-        assert_eq!(Rest::new(0.0, 2.0).stays_until(1e-300), None);
     }
 }

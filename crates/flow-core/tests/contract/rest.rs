@@ -129,54 +129,6 @@ fn steps_that_hold_a_state_are_told_and_counted_as_others_are() {
     assert_eq!(problem.law().accepted, times);
 }
 
-/// ẏ = −y with the energy 1 + cy²/2, c so small that nothing is to lose before [`QUIET`]; candidates that move are above the last energy
-/// by far more than rounding, as if by an error of the step.
-struct Erring {
-    accepted: f64,
-}
-
-const HARDLY: f64 = 1e-18;
-
-impl Law for Erring {
-    fn rate(&self, y: f64) -> f64 {
-        -y
-    }
-
-    fn slope(&self, _: f64) -> f64 {
-        -1.0
-    }
-
-    fn word(&self, time: f64, y: f64) -> (f64, [f64; INTEGRALS]) {
-        let error = if time > self.accepted && self.accepted > 0.0 && y < START { 1e-6 } else { 0.0 };
-        (1.0 + error, [HARDLY * y * y, 0.0, 0.0, 0.0])
-    }
-
-    fn accepted(&mut self, time: f64) {
-        self.accepted = time;
-    }
-
-    fn rests_with_its_energy(&self) -> bool {
-        true
-    }
-}
-
-/// It is held as long as that is so, and the steps tell what it dissipates: whether it is in equilibrium is not for them to say.
-#[test]
-fn a_state_with_nothing_to_lose_is_held_and_tells_its_dissipation() {
-    let mut problem = Scalar::new(Erring { accepted: 0.0 });
-    let mut integration = started(&mut problem, QUIET);
-    let first = integration.step(&mut problem).expect("a step");
-    let y = integration.stepper().state()[0];
-    let mut steps = 0;
-    while integration.stepper().time() < QUIET {
-        let report = integration.step(&mut problem).expect("a step");
-        assert_eq!((report.energy, report.dissipation), (first.energy, first.dissipation));
-        steps += 1;
-    }
-    assert_eq!(integration.stepper().state()[0], y);
-    assert!(steps < 40, "{steps} steps");
-}
-
 /// ẏ = −y with the energy y²/2.
 struct Decay;
 

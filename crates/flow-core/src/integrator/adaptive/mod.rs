@@ -97,11 +97,11 @@ impl<S: Stepper> Adaptive<S> {
             let mut outcome = self.attempt(problem);
             if let Err(cause) = outcome
                 && problem.rests_with_its_energy()
-                && let Some(dissipation) = self.rests(start, size)
+                && (self.rest.reached(start) || self.idle)
             {
                 rejections.count(cause);
                 self.counters.rejections.count(cause);
-                outcome = Ok(self.hold(problem, size, dissipation));
+                outcome = Ok(self.hold(problem, size));
             }
             match outcome {
                 Ok((energy, [dissipation, settled_dissipation])) => {
@@ -219,7 +219,7 @@ impl<S: Stepper> Adaptive<S> {
                     return Err(self.refuse(Rejection::Error, growth_in_balance(imbalance).max(LEAST_FACTOR)));
                 }
                 self.stepper.confirm(problem)?;
-                self.rest.watch(time, [energy, dissipation], rounding);
+                self.rest.watch(time, energy, rounding);
                 self.energy = energy;
                 self.stepper.accept(problem, integrals, growth_in_balance(imbalance));
                 problem.accepted(time, self.stepper.integrals());
@@ -234,18 +234,13 @@ impl<S: Stepper> Adaptive<S> {
         cause
     }
 
-    /// What the state dissipates that may stay where it is for a step from `start`, if it may: nothing, once the flow is at rest.
-    fn rests(&self, start: f64, size: f64) -> Option<f64> {
-        if self.rest.reached(start) || self.idle { Some(0.0) } else { self.rest.stays_until(start + size) }
-    }
-
-    /// A step of size `size` in which the state stays: what moves it is rounding, or would lose no more than that.
-    fn hold(&mut self, problem: &mut dyn Problem, size: f64, dissipation: f64) -> (f64, [f64; 2]) {
+    /// A step of size `size` in which the state stays: the flow is at rest, and what moves it is rounding.
+    fn hold(&mut self, problem: &mut dyn Problem, size: f64) -> (f64, [f64; 2]) {
         self.stepper.hold(size);
         let time = self.stepper.time();
         self.finish(problem, time); // the candidate is that state
         problem.accepted(time, self.stepper.integrals());
-        (self.energy, [dissipation; 2])
+        (self.energy, [0.0; 2])
     }
 
     /// By how much rounding may change the energy from the last one to `energy`, that of the candidate.
