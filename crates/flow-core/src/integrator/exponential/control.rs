@@ -2,11 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::formula::weights_at_end;
 use super::memory::ENOUGH;
 use super::orders::HIGHEST_ORDER;
 use super::substitution::StepClock;
 use super::sums::Correction;
-use super::{Exponential, MOST_CHANGES, OLDEST_PART, weights_at_end};
+use super::{Exponential, MOST_CHANGES, OLDEST_PART};
 use crate::integrator::Rejection;
 use crate::integrator::clock;
 use crate::integrator::pace::{Next, growth_for, on_scale, shrinking};

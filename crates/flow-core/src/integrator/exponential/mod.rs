@@ -7,6 +7,7 @@
 //! BIT 51 (2011) 889; order and step size as Shampine & Gordon, Computer Solution of Ordinary Differential Equations (1975).
 
 mod control;
+mod formula;
 mod memory;
 mod moments;
 mod orders;
@@ -16,7 +17,7 @@ mod substitution;
 mod sums;
 
 use super::error_norm::ErrorNorm;
-use super::history::{History, MOST_POINTS, lagrange};
+use super::history::{History, MOST_POINTS};
 use super::integrals::Integrals;
 use super::linear_part::LinearPart;
 use super::pace::Pace;
@@ -26,10 +27,8 @@ use control::Stiffness;
 pub use memory::ExponentialMemory;
 use moments::{Moments, moments_at};
 use orders::{FOR_CLOCKS, MOST_MOMENTS};
-use polynomials::{Coefficients, of_last_point, of_new_value};
 pub(super) use start::start;
 use substitution::{StepClock, Substitution};
-use sums::Correction;
 
 /// Changes that are computed at once: the correction, and the differences that tell the error.
 const MOST_CHANGES: usize = 5;
@@ -114,77 +113,6 @@ impl Exponential {
             }
         }
     }
-
-    fn predict(&mut self) {
-        let points = self.pace.order;
-        let basis = self.substitution.lagrange_basis(&self.nodes[..points]);
-        let terms = self.substitution.terms(points);
-        let Self { predicted, moments, bases, rests, pace, .. } = self;
-        let basis = (&basis[..points], terms);
-        sums::extrapolate(pace.step, basis, moments.blocks(), (&bases[0], rests), predicted);
-        self.part.from_eigenbasis(predicted);
-    }
-
-    /// The candidate by the last `order` values of N and the one at the prediction; the differences that tell its error.
-    fn correct(&mut self) {
-        let order = self.pace.order;
-        let (watched, known) = (self.watched(), self.states.len());
-        let watched = || watched.into_iter().filter(|points| (1..=known).contains(points));
-        let mut corrections = [self.correction(order, of_new_value); MOST_CHANGES];
-        let mut count = 1;
-        for points in watched() {
-            corrections[count] = self.correction(points, of_last_point);
-            count += 1;
-        }
-        self.change(&corrections[..count]);
-        let Self { candidate, predicted, changes, .. } = self;
-        for ((y, predicted), change) in candidate.iter_mut().zip(predicted).zip(&changes[0]) {
-            *y = *predicted + change;
-        }
-        self.differences = [None; MOST_POINTS + 1];
-        for (points, change) in watched().zip(&self.changes[1..]) {
-            self.differences[points] = Some(self.norm.norm(change));
-        }
-        self.compare_clocks(corrections[0]);
-    }
-
-    /// A change by what the last `points` values of N miss at the prediction, along the `polynomial` for their θ.
-    fn correction(&self, points: usize, polynomial: fn(&[f64]) -> Coefficients) -> Correction {
-        let nodes = &self.nodes[..points];
-        let (weights, mut polynomial) = (weights_at_end(nodes), polynomial(nodes));
-        let terms = self.substitution.terms(points + 1);
-        self.substitution.take_to_theta(&mut polynomial);
-        Correction { points, weights, terms, polynomial }
-    }
-
-    /// `changes` by the `corrections`, in the original basis.
-    fn change(&mut self, corrections: &[Correction]) {
-        let Self { part, moments, predicted_rest, rests, changes, pace, .. } = self;
-        sums::correct(pace.step, corrections, moments.blocks(), (predicted_rest, rests), changes);
-        changes[..corrections.len()].iter_mut().for_each(|change| part.from_eigenbasis(change));
-    }
-
-    /// What a second correction would change of the candidate, into the first of `changes`.
-    fn correct_again(&mut self) {
-        let Self { part, moments, predicted_rest, candidate_rest, changes, pace, .. } = self;
-        let past = std::slice::from_ref(predicted_rest);
-        sums::correct(pace.step, &[CONSTANT], moments.blocks(), (candidate_rest, past), changes);
-        part.from_eigenbasis(&mut changes[0]);
-    }
-}
-
-/// What one value of N misses, all along the step.
-const CONSTANT: Correction = {
-    let [mut weights, mut polynomial] = [[0.0; MOST_MOMENTS]; 2];
-    (weights[0], polynomial[0]) = (1.0, 1.0);
-    Correction { points: 1, weights, terms: 1, polynomial }
-};
-
-/// Weights of the polynomial through `nodes` at u = 1.
-fn weights_at_end(nodes: &[f64]) -> [f64; MOST_MOMENTS] {
-    let mut weights = [0.0; MOST_MOMENTS];
-    weights[..nodes.len()].copy_from_slice(&lagrange(1.0, nodes).value[..nodes.len()]);
-    weights
 }
 
 /// `rest` = N of the state `y` with the rate `f` in the eigenbasis, and `base` = y there.
