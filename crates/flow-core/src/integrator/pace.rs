@@ -49,11 +49,6 @@ pub fn shrinking(growth: f64) -> f64 {
     growth.clamp(SHRINKING[0], SHRINKING[1])
 }
 
-/// Whether a step is longer than another one, of which the size is a difference of times.
-pub fn is_longer(step: f64, other: f64) -> bool {
-    step > (1.0 + ON_STEP) * other
-}
-
 /// The next factor below on a geometric scale. Estimates of errors are differences, whose rounding would go on to all
 /// steps; so it goes on only where it tips the scale.
 pub fn on_scale(factor: f64) -> f64 {

@@ -3,7 +3,6 @@
 use super::Bdf;
 use crate::integrator::clock::Clock;
 use crate::integrator::history::{MOST_POINTS, Weights, lagrange};
-use crate::integrator::pace::is_longer;
 
 impl Bdf {
     pub(super) fn leading_coefficient(&self) -> f64 {
@@ -36,11 +35,5 @@ impl Bdf {
         let mut weights = lagrange(end, &times[..=order]);
         weights.derivative.iter_mut().for_each(|weight| *weight /= slope);
         weights
-    }
-
-    /// Whether the step is longer than the last one.
-    pub(super) fn grew(&self) -> bool {
-        let times = self.history.times();
-        is_longer(self.pace.step, times[0] - times[1])
     }
 }

@@ -266,9 +266,7 @@ impl Stepper for Bdf {
     }
 
     fn refuse(&mut self, cause: Rejection, factor: f64) {
-        // The balance closes with a high power of the step: a step like the last one, which closed it, is out of balance by noise.
-        let by_noise = cause == Rejection::EnergyRise || cause == Rejection::Error && !self.grew();
-        if by_noise {
+        if cause == Rejection::EnergyRise {
             self.pace.leave_less();
         }
         self.pace.fail(factor);
