@@ -25,23 +25,30 @@ fn work(tolerance: &str, changes: &[(&str, &str)]) -> Counters {
     counters
 }
 
-/// The work of the first transient at a loose tolerance.
-fn loose_first_transient() -> Counters {
-    work("1e-3", &[("time.end", "0.1")])
+/// The work of the first transient at loose tolerances.
+fn loose_first_transients() -> [Counters; 3] {
+    ["0.95e-3", "1e-3", "1.05e-3"].map(|tolerance| work(tolerance, &[("time.end", "0.1")]))
 }
 
-/// What fronts that move leave in the stiff modes of the curvature takes no Krylov iterations: five of them a step before.
+fn total(counters: &[Counters], count: fn(&Counters) -> u64) -> u64 {
+    counters.iter().map(count).sum()
+}
+
+/// What fronts that move leave in the stiff modes of the curvature takes no Krylov iterations: five of them a step before. A transient
+/// multiplies what differs, so that one run alone says little.
 #[test]
 fn loose_tolerances_take_few_krylov_iterations() {
-    let counters = loose_first_transient();
-    assert!(counters.krylov_iterations < 4 * counters.steps, "{counters:?}");
+    let runs = loose_first_transients();
+    let (iterations, steps) = (total(&runs, |run| run.krylov_iterations), total(&runs, |run| run.steps));
+    assert!(iterations < 4 * steps, "{runs:?}");
 }
 
 /// Errors that the implicit solves leave in stiff modes do not count against the balance of energy and dissipation.
 #[test]
 fn loose_solves_are_not_taken_for_steps_over_a_transient() {
-    let counters = loose_first_transient();
-    assert!(8 * counters.rejections.error < counters.steps, "{counters:?}"); // three in ten before
+    let runs = loose_first_transients();
+    let (rejected, steps) = (total(&runs, |run| run.rejections.error), total(&runs, |run| run.steps));
+    assert!(8 * rejected < steps, "{runs:?}"); // three in ten before
 }
 
 /// Where its errors allow a step whose stage must be solved again and again, two shorter ones are cheaper: at 1e-2 the run took more

@@ -36,7 +36,7 @@ const ERUPTION: f64 = 1.5;
 /// … where a second correction changes as much, in units of the tolerance: less may be rounding.
 const SEEN: f64 = 0.1;
 /// Contraction above which Λ is taken anew before its time, if it was less than half of this with Λ as it was.
-const OUTDATED: f64 = 0.1;
+const OUTDATED: f64 = 0.2;
 
 /// What the stiffness of N does to the steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
