@@ -1,11 +1,11 @@
 //! What a flow can change of its energy: `THEORY.md`, eq. (I14).
 
-/// Part of the energy lost that counts as the scale at least, where errors of the energy are measured.
+/// Part of the energy lost that counts as the scale at least: what is left may pass through zero.
 const PART_OF_LOSS: f64 = 1e-3;
 
 /// What errors of the energy are relative to: what the flow can change, as far as that is known.
 ///
-/// It is at most the energy, at most what is left of it without a constant of the motion, and at least what has been lost: a constant
+/// It is at most the energy, at most what is left of it without a constant of the motion, or a thousandth of what has been lost: a constant
 /// that hides all else would let steps be as wrong as they like, and the flow seem to be at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnergyScale {
@@ -29,7 +29,7 @@ impl EnergyScale {
     /// What the flow can change of the energy `energy`.
     #[must_use]
     pub fn of(self, energy: f64) -> f64 {
-        energy.abs().min((energy - self.constant).abs().max(self.initial - energy))
+        energy.abs().min((energy - self.constant).abs().max(PART_OF_LOSS * (self.initial - energy)))
     }
 
     /// The same, but a thousandth of what was lost at least: what counts as small of an energy that fell to nearly zero.
@@ -58,6 +58,8 @@ mod tests {
         // Nor does it make the scale any larger, as of ∫(a − 1)² dσ, a near 1.
         assert_eq!(EnergyScale::new(1e-3, 6.0).of(1e-4), 1e-4);
         // What is left may pass through zero; what was lost is no zero then.
-        assert_eq!(EnergyScale::new(9.0, 6.0).of(6.0), 3.0);
+        assert_eq!(EnergyScale::new(9.0, 6.0).of(6.0), 3e-3);
+        // What a transient has lost does not bring the constant back.
+        assert_eq!(EnergyScale::new(1080.0, 1000.0).of(1000.125), 0.125);
     }
 }

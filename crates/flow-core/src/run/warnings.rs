@@ -92,7 +92,8 @@ fn of_energy(record: &Record) -> [Option<Doubt<'_>>; 2] {
     let largest = scale.of(first.energy).max(scale.of(last.energy));
     let part = (last.energy_balance - last.remap_error).abs() / largest;
     let rounding = ENERGY_ROUNDING * last.energy.abs() / largest;
-    let is_drowned = rounding > ENERGY_ROUNDING.max(ENERGY_TOLERANCE_SHARE * tolerance);
+    // Of an energy that the flow cannot change nothing is hidden.
+    let is_drowned = largest > 0.0 && rounding > ENERGY_ROUNDING.max(ENERGY_TOLERANCE_SHARE * tolerance);
     let out_of_balance = Doubt::OutOfBalance { part, tolerance, own_terms: &record.own_terms };
     let drowned = Doubt::Drowned { constant: scale.constant(), part: rounding, tolerance };
     [(part > OUT_OF_BALANCE * tolerance + rounding).then_some(out_of_balance), is_drowned.then_some(drowned)]

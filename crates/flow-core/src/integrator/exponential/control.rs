@@ -34,7 +34,7 @@ const LEFT: f64 = 5.0;
 /// Growth of the contraction, above [`STIFF`] and in a step that is not longer, that tells of errors that grow by themselves …
 const ERUPTION: f64 = 1.5;
 /// … where a second correction changes as much, in units of the tolerance: less may be rounding.
-const SEEN: f64 = 0.1;
+const SEEN: f64 = 1.0;
 /// Contraction above which Λ is taken anew before its time, if it was less than half of this with Λ as it was.
 const OUTDATED: f64 = 0.2;
 
