@@ -67,9 +67,8 @@ fn nodes_that_follow_the_curve_come_to_rest() {
 /// leaves in stiff modes was multiplied by each prediction, and took 13,680 steps of order 1 at a tolerance of 1e-2.
 #[test]
 fn what_linear_systems_leave_does_not_keep_steps_short() {
-    for (tolerance, most_steps) in [("1e-2", 250), ("1e-3", 300), ("1e-4", 350), ("1e-5", 1500)] {
-        let record = run(&scene(&format!(
-            r#"
+    check_steps(
+        r#"
             title = "Bending by a density"
             [curve]
             shape = "ellipse"
@@ -95,22 +94,17 @@ fn what_linear_systems_leave_does_not_keep_steps_short() {
             [time]
             end = 50.0
             stop_at_equilibrium = false
-            [accuracy]
-            tolerance = {tolerance}
-            "#
-        )));
-        println!("{tolerance}: {} steps", record.counters.steps);
-        assert_close(last(&record).energy, 5.325_463, 1e-6);
-        assert!(record.counters.steps < most_steps, "{tolerance}: {} steps", record.counters.steps);
-    }
+        "#,
+        (5.325_463, 1e-6),
+        &[("1e-2", 250), ("1e-3", 300), ("1e-4", 350), ("1e-5", 1500)],
+    );
 }
 
 /// So it was with a density that is only carried along: 1,017 and 1,061 steps.
 #[test]
 fn a_density_that_is_carried_along_does_not_keep_steps_short() {
-    for (tolerance, most_steps) in [("1e-4", 300), ("1e-7", 700)] {
-        let record = run(&scene(&format!(
-            r#"
+    check_steps(
+        r#"
             title = "A loop with a density that is carried along"
             [curve]
             shape = "polar"
@@ -132,13 +126,19 @@ fn a_density_that_is_carried_along_does_not_keep_steps_short() {
             [time]
             end = 6.46796
             stop_at_equilibrium = false
-            [accuracy]
-            tolerance = {tolerance}
-            "#
-        )));
+        "#,
+        (122.788, 1e-4),
+        &[("1e-4", 300), ("1e-7", 700)],
+    );
+}
+
+/// Holds the runs of the scene `text` at each tolerance to its energy at the end, to a relative error, and to fewer than so many steps.
+fn check_steps(text: &str, (energy, error): (f64, f64), bounds: &[(&str, u64)]) {
+    for (tolerance, most_steps) in bounds {
+        let record = run(&scene(&format!("{text}\n[accuracy]\ntolerance = {tolerance}")));
         println!("{tolerance}: {} steps", record.counters.steps);
-        assert_close(last(&record).energy, 122.788, 1e-4);
-        assert!(record.counters.steps < most_steps, "{tolerance}: {} steps", record.counters.steps);
+        assert_close(last(&record).energy, energy, error);
+        assert!(record.counters.steps < *most_steps, "{tolerance}: {} steps", record.counters.steps);
     }
 }
 

@@ -1,6 +1,6 @@
 //! ESDIRK pairs; the stages are solved by the core's Newton–Krylov iteration.
 
-use flow_core::integrator::{Counters, ErrorNorm, NewtonKrylov, NewtonOutcome, Problem, Stage};
+use flow_core::integrator::{Counters, ErrorNorm, Exactness, NewtonKrylov, NewtonOutcome, Problem, Stage};
 
 use super::add_scaled;
 use super::one_step::Formula;
@@ -72,7 +72,8 @@ impl Formula for Esdirk {
             // The rate changes little from stage to stage.
             self.guess.copy_from_slice(&self.constant);
             add_scaled(&mut self.guess, gamma, &self.rates[index - 1]);
-            let stage = Stage { norm, gamma, constant: &self.constant, goal, residual: 1.0 };
+            let exactness = Exactness { goal, residual: 1.0 };
+            let stage = Stage { norm, gamma, constant: &self.constant, exactness };
             let outcome = self.newton.solve(problem, &stage, &self.guess, &mut self.stage, counters);
             if outcome != NewtonOutcome::Converged {
                 return false;

@@ -182,7 +182,7 @@ impl Stepper for OneStep {
         self.step *= factor;
     }
 
-    fn accept(&mut self, _: &mut dyn Problem, integrals: Integrals, _: f64) {
+    fn accept(&mut self, integrals: Integrals, _: f64) {
         if self.time == 0.0 {
             self.first = self.step;
         }

@@ -37,7 +37,7 @@ pub use integrals::{DISSIPATED, INTEGRALS, Integrals};
 pub use linear_part::LinearPart;
 pub use memory::Memory;
 pub use multistep::Multistep;
-pub use newton::{Factorisation, NewtonKrylov, NewtonOutcome, Stage};
+pub use newton::{Exactness, Factorisation, NewtonKrylov, NewtonOutcome, Stage};
 pub use problem::{Finish, Problem};
 pub use rest::Rest;
 pub use statistics::{Counters, Rejection, Rejections};

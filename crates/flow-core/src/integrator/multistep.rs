@@ -162,8 +162,8 @@ impl Stepper for Multistep {
         self.stepper_mut().refuse(cause, factor);
     }
 
-    fn accept(&mut self, problem: &mut dyn Problem, integrals: Integrals, most_growth: f64) {
-        self.stepper_mut().accept(problem, integrals, most_growth);
+    fn accept(&mut self, integrals: Integrals, most_growth: f64) {
+        self.stepper_mut().accept(integrals, most_growth);
     }
 
     fn interpolate(&self, time: f64, y: &mut [f64]) -> [f64; INTEGRALS] {

@@ -48,7 +48,16 @@ impl NewtonOutcome {
     }
 }
 
-/// An implicit stage y = `constant` + `gamma` f(y), to be solved to the error `goal`.
+/// How exactly stages are solved.
+#[derive(Clone, Copy, Debug)]
+pub struct Exactness {
+    /// Error, in the norm, to which y is wanted.
+    pub goal: f64,
+    /// Part of the usual residual that linear systems are to leave.
+    pub residual: f64,
+}
+
+/// An implicit stage y = `constant` + `gamma` f(y).
 #[derive(Clone, Copy, Debug)]
 pub struct Stage<'a> {
     /// The norm of errors.
@@ -57,10 +66,8 @@ pub struct Stage<'a> {
     pub gamma: f64,
     /// What does not depend on y.
     pub constant: &'a [f64],
-    /// Error, in the norm, to which y is wanted.
-    pub goal: f64,
-    /// Part of the usual residual that linear systems are to leave.
-    pub residual: f64,
+    /// How exactly it is solved.
+    pub exactness: Exactness,
 }
 
 impl Stage<'_> {
@@ -206,7 +213,7 @@ impl NewtonKrylov {
             if iteration > 0 {
                 contraction = (REMEMBERED * contraction).max(size / previous);
             }
-            if size * contraction.min(1.0) <= stage.goal {
+            if size * contraction.min(1.0) <= stage.exactness.goal {
                 return NewtonOutcome::Converged;
             }
             if iteration > 0 && size > DIVERGING * previous {
@@ -245,8 +252,8 @@ impl NewtonKrylov {
         counters.newton_iterations += 1;
         stage.residual(y, &mut self.correction);
         let weighted = residual == Residual::Weighted;
-        let (norm, goal) = (stage.norm, KRYLOV_SHARE * stage.goal);
-        let (reduction, wanted) = (KRYLOV_REDUCTION, KRYLOV_REDUCTION * stage.residual);
+        let (norm, goal) = (stage.norm, KRYLOV_SHARE * stage.exactness.goal);
+        let (reduction, wanted) = (KRYLOV_REDUCTION, KRYLOV_REDUCTION * stage.exactness.residual);
         let target = Target { norm, goal, reduction, wanted, weighted };
         let solved = self.gmres.solve(problem, stage.gamma, target, &mut self.correction, counters);
         self.effort.solves += 1;

@@ -58,7 +58,7 @@ pub trait Stepper {
     fn refuse(&mut self, cause: Rejection, factor: f64);
     /// Accepts the candidate, which has been confirmed, with the integrals at it; by the clock the next step is at most
     /// `most_growth` times as long.
-    fn accept(&mut self, problem: &mut dyn Problem, integrals: Integrals, most_growth: f64);
+    fn accept(&mut self, integrals: Integrals, most_growth: f64);
     /// State at a time within the last accepted step.
     fn interpolate(&self, time: f64, y: &mut [f64]) -> [f64; INTEGRALS];
 }

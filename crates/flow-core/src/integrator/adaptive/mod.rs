@@ -221,7 +221,7 @@ impl<S: Stepper> Adaptive<S> {
                 self.stepper.confirm(problem)?;
                 self.rest.watch(time, energy, rounding);
                 self.energy = energy;
-                self.stepper.accept(problem, integrals, growth_in_balance(imbalance));
+                self.stepper.accept(integrals, growth_in_balance(imbalance));
                 problem.accepted(time, self.stepper.integrals());
                 Ok((energy, [dissipation, integral_rates[DISSIPATED].min(dissipation)]))
             }

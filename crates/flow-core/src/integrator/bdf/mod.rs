@@ -13,7 +13,7 @@ use super::error_norm::{ErrorNorm, check_start};
 use super::history::{History, MOST_POINTS, lagrange};
 use super::integrals::Integrals;
 use super::memory::Memory;
-use super::newton::{Factorisation, NewtonKrylov, NewtonOutcome, Stage};
+use super::newton::{Exactness, Factorisation, NewtonKrylov, NewtonOutcome, Stage};
 use super::pace::{Pace, shrinking};
 use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
 use crate::geometry::vectors::add_scaled;
@@ -130,9 +130,9 @@ impl Bdf {
         }
     }
 
-    /// Error to which stages are solved.
-    fn goal(&self) -> f64 {
-        NEWTON_SHARE * self.pace.exactness * self.tolerance
+    fn exactness(&self) -> Exactness {
+        let goal = NEWTON_SHARE * self.pace.exactness * self.tolerance;
+        Exactness { goal, residual: self.pace.residual }
     }
 }
 
@@ -171,13 +171,7 @@ impl Stepper for Bdf {
         let shifted: [f64; MOST_POINTS] =
             std::array::from_fn(|i| weights.value[i] - gamma * weights.derivative[i]);
         self.history.combine(&shifted, points, &mut self.constant);
-        let stage = Stage {
-            norm: &self.norm,
-            gamma,
-            constant: &self.constant,
-            goal: self.goal(),
-            residual: self.pace.residual,
-        };
+        let stage = Stage { norm: &self.norm, gamma, constant: &self.constant, exactness: self.exactness() };
         let outcome = self.newton.solve(problem, &stage, &self.predicted, &mut self.candidate, counters);
         if outcome != NewtonOutcome::Converged {
             self.pace.fail(NEWTON_CUT);
@@ -201,13 +195,7 @@ impl Stepper for Bdf {
     fn settle(&mut self, problem: &mut dyn Problem) -> bool {
         let gamma = self.gamma();
         problem.finished_rate(&self.candidate, &mut self.difference);
-        let stage = Stage {
-            norm: &self.norm,
-            gamma,
-            constant: &self.constant,
-            goal: self.goal(),
-            residual: self.pace.residual,
-        };
+        let stage = Stage { norm: &self.norm, gamma, constant: &self.constant, exactness: self.exactness() };
         stage.residual(&self.candidate, &mut self.difference);
         let settles = problem.settle(gamma, &mut self.difference);
         if settles {
@@ -222,13 +210,7 @@ impl Stepper for Bdf {
 
     fn polish(&mut self, problem: &mut dyn Problem, counters: &mut Counters) -> bool {
         let gamma = self.gamma();
-        let stage = Stage {
-            norm: &self.norm,
-            gamma,
-            constant: &self.constant,
-            goal: self.goal(),
-            residual: self.pace.residual,
-        };
+        let stage = Stage { norm: &self.norm, gamma, constant: &self.constant, exactness: self.exactness() };
         self.newton.correct(problem, &stage, &mut self.candidate, counters).is_some()
     }
 
@@ -272,7 +254,7 @@ impl Stepper for Bdf {
         self.pace.fail(factor);
     }
 
-    fn accept(&mut self, _: &mut dyn Problem, integrals: Integrals, most_growth: f64) {
+    fn accept(&mut self, integrals: Integrals, most_growth: f64) {
         let time = self.candidate_time();
         self.pace.accept();
         self.plan(most_growth);

@@ -200,7 +200,7 @@ impl Stepper for Exponential {
         self.fail(factor);
     }
 
-    fn accept(&mut self, _: &mut dyn Problem, integrals: Integrals, most_growth: f64) {
+    fn accept(&mut self, integrals: Integrals, most_growth: f64) {
         let time = self.time() + self.pace.step;
         self.pace.accept();
         self.rests.rotate_right(1);
