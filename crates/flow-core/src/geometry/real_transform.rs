@@ -10,6 +10,7 @@ use std::f64::consts::TAU;
 use std::fmt;
 use std::sync::Arc;
 
+use bytemuck::{cast_slice, cast_slice_mut};
 use multiversion::multiversion;
 use rustfft::{Fft, FftPlanner};
 
@@ -96,7 +97,7 @@ impl RealTransform {
                 *coefficient = work * scale;
             }
         } else {
-            let pairs = bytemuck::cast_slice(values);
+            let pairs = cast_slice(values);
             self.forward.process_immutable_with_scratch(pairs, &mut self.work, &mut self.scratch);
             untangle(&self.work, &self.turns, scale, spectrum);
         }
@@ -119,7 +120,7 @@ impl RealTransform {
             }
         } else {
             tangle(spectrum, &self.turns, &mut self.work);
-            let pairs = bytemuck::cast_slice_mut(values);
+            let pairs = cast_slice_mut(values);
             self.inverse.process_outofplace_with_scratch(&mut self.work, pairs, &mut self.scratch);
         }
     }
@@ -154,21 +155,33 @@ fn butterflies<const INVERSE: bool>(
     half: f64,
 ) {
     let middle = length / 2;
+    // The modes that are not their own mirror image.
+    let pairs = length - middle - 1;
     let (low_to, high_to) = to.split_at_mut(middle + 1);
+    let low_to = &mut low_to[1..=pairs];
+    let [low, high, turn] = [&from[1..=pairs], &from[middle + 1..length], &turns[1..=pairs]];
     // Whole chunks below the middle, and their mirror images, the last first.
-    let (lows, _) = chunks(&from[1..length - middle]);
-    let (_, highs) = bytemuck::cast_slice(&from[middle + 1..length]).as_rchunks::<LANES>();
-    let (low_targets, _) = bytemuck::cast_slice_mut(&mut low_to[1..length - middle]).as_chunks_mut::<LANES>();
-    let (_, high_targets) =
-        bytemuck::cast_slice_mut(&mut high_to[..length - middle - 1]).as_rchunks_mut::<LANES>();
-    let (turn_chunks, _) = chunks(&turns[1..length - middle]);
+    let (lows, _) = cast_slice(low).as_chunks::<LANES>();
+    let (_, highs) = cast_slice(high).as_rchunks::<LANES>();
+    let (us, _) = cast_slice(turn).as_chunks::<LANES>();
+    let (low_targets, _) = cast_slice_mut(low_to).as_chunks_mut::<LANES>();
+    let (_, high_targets) = cast_slice_mut(&mut high_to[..pairs]).as_rchunks_mut::<LANES>();
     let mirrored = highs.iter().zip(high_targets).rev();
-    for (((low, low_target), u), (high, high_target)) in
-        lows.iter().zip(low_targets).zip(turn_chunks).zip(mirrored)
-    {
+    for (((low, low_target), u), (high, high_target)) in lows.iter().zip(low_targets).zip(us).zip(mirrored) {
         [*low_target, *high_target] = butterfly_of_chunks::<INVERSE>(low, high, u, half);
     }
-    for k in 1 + lows.len() * WIDTH..=middle {
+    let mut done = lows.len() * WIDTH;
+    // What is left of them by one more chunk, which does some of the last one again.
+    if done < pairs
+        && let (Some(low), Some(high), Some(u)) =
+            (cast_slice(low).last_chunk(), cast_slice(high).first_chunk(), cast_slice(turn).last_chunk())
+        && let Some(low_target) = cast_slice_mut(low_to).last_chunk_mut()
+        && let Some(high_target) = cast_slice_mut(high_to).first_chunk_mut()
+    {
+        [*low_target, *high_target] = butterfly_of_chunks::<INVERSE>(low, high, u, half);
+        done = pairs;
+    }
+    for k in 1 + done..=middle {
         let turn = if INVERSE { turns[k].conj() } else { turns[k] };
         let [low, high] = butterfly(from[k], from[length - k], turn, half);
         to[k] = low;
@@ -192,12 +205,6 @@ fn butterfly_of_chunks<const INVERSE: bool>(low: &Chunk, high: &Chunk, u: &Chunk
     let below: Chunk =
         std::array::from_fn(|l| if l % 2 == 0 { sum[l] - turned[l] } else { turned[l] - sum[l] });
     [std::array::from_fn(|l| sum[l] + turned[l]), std::array::from_fn(|l| below[LANES - 2 + 2 * (l % 2) - l])]
-}
-
-/// The coefficients by chunks of real numbers.
-#[inline(always)]
-fn chunks(coefficients: &[Complex64]) -> (&[Chunk], &[f64]) {
-    bytemuck::cast_slice(coefficients).as_chunks::<LANES>()
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]

@@ -90,7 +90,7 @@ impl Exponential {
     pub(super) fn watch_contraction(&mut self) -> Result<(), Rejection> {
         self.correct_again();
         let again = self.norm.norm(&self.changes[0]);
-        self.scratch.iter_mut().zip(&self.candidate).zip(&self.predicted).for_each(|((d, y), p)| *d = y - p);
+        self.scratch.iter_mut().zip(&self.candidate).zip(&*self.predicted).for_each(|((d, y), p)| *d = y - p);
         let contraction = again / self.norm.norm(&self.scratch).max(f64::MIN_POSITIVE);
         if again > SEEN * self.tolerance && self.stiffness.erupts(contraction, self.pace.step) {
             // With another Λ it may be over; else it is the end of the method.

@@ -44,7 +44,7 @@ impl Exponential {
         }
         self.change(&corrections[..count]);
         let Self { candidate, predicted, changes, .. } = self;
-        for ((y, predicted), change) in candidate.iter_mut().zip(predicted).zip(&changes[0]) {
+        for ((y, predicted), change) in candidate.iter_mut().zip(&**predicted).zip(&*changes[0]) {
             *y = *predicted + change;
         }
         self.differences = [None; MOST_POINTS + 1];

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::blocked::Blocked;
 use super::control::Stiffness;
 use super::orders::{HIGHEST_ORDER, MOST_MOMENTS};
 use super::{Exponential, Moments, OLDEST_PART, StepClock, Substitution};
@@ -63,7 +64,7 @@ impl Exponential {
     #[must_use]
     pub fn resume(problem: &dyn Problem, memory: Memory, own: ExponentialMemory, tolerance: f64) -> Self {
         let size = problem.size();
-        let zero = || vec![0.0; size];
+        let (zero, blocked) = (|| vec![0.0; size], || Blocked::new(size));
         let times = memory.points.iter().map(|(time, _)| *time);
         let rates: Vec<_> = times.zip(own.rates).collect();
         let mut method = Self {
@@ -79,18 +80,18 @@ impl Exponential {
             substitution: Substitution::new(StepClock::new(0.0), 1),
             nodes: [0.0; MOST_MOMENTS],
             best_stretch: 0.0,
-            rests: vec![zero(); MOST_POINTS],
-            bases: [zero(), zero()],
+            rests: vec![blocked(); MOST_POINTS],
+            bases: [blocked(), blocked()],
             pace: memory.pace.of_order_at_most(HIGHEST_ORDER),
             stiffness: own.stiffness,
             differences: [None; MOST_POINTS + 1],
-            predicted: zero(),
+            predicted: blocked(),
             candidate: zero(),
-            predicted_rest: zero(),
+            predicted_rest: blocked(),
             candidate_rate: zero(),
-            candidate_rest: zero(),
-            candidate_base: zero(),
-            changes: std::array::from_fn(|_| zero()),
+            candidate_rest: blocked(),
+            candidate_base: blocked(),
+            changes: std::array::from_fn(|_| blocked()),
             scratch: zero(),
         };
         method.decompose();

@@ -6,6 +6,7 @@
 //! the error. There are no linear systems: it serves while N is not stiff. See `THEORY.md`, eqs. (I10) to (I12); Hochbruck & Ostermann,
 //! BIT 51 (2011) 889; order and step size as Shampine & Gordon, Computer Solution of Ordinary Differential Equations (1975).
 
+mod blocked;
 mod control;
 mod formula;
 mod memory;
@@ -23,9 +24,10 @@ use super::linear_part::LinearPart;
 use super::pace::Pace;
 use super::{Counters, INTEGRALS, Problem, Rejection, Stepper};
 use crate::geometry::vectors::add_scaled_product;
+use blocked::Blocked;
 use control::Stiffness;
 pub use memory::ExponentialMemory;
-use moments::{Moments, moments_at};
+use moments::Moments;
 use orders::{FOR_CLOCKS, MOST_MOMENTS};
 pub(super) use start::start;
 use substitution::{StepClock, Substitution};
@@ -54,24 +56,24 @@ pub struct Exponential {
     /// u of the past states; no number where the clock does not run.
     nodes: [f64; MOST_MOMENTS],
     /// N = f − Λy at the states in the eigenbasis, newest first; the newest states there.
-    rests: Vec<Vec<f64>>,
-    bases: [Vec<f64>; 2],
+    rests: Vec<Blocked>,
+    bases: [Blocked; 2],
     pace: Pace,
     stiffness: Stiffness,
     /// Rate of the clock that would have served the last attempt best.
     best_stretch: f64,
     /// What the last n values of N change instead of n − 1, where it is known.
     differences: [Option<f64>; MOST_POINTS + 1],
-    predicted: Vec<f64>,
+    predicted: Blocked,
     candidate: Vec<f64>,
     /// N at the prediction.
-    predicted_rest: Vec<f64>,
+    predicted_rest: Blocked,
     /// f and N at the candidate, and the candidate in the eigenbasis.
     candidate_rate: Vec<f64>,
-    candidate_rest: Vec<f64>,
-    candidate_base: Vec<f64>,
+    candidate_rest: Blocked,
+    candidate_base: Blocked,
     /// What the corrector changes, and what it would with a value less of each number that is watched.
-    changes: [Vec<f64>; MOST_CHANGES],
+    changes: [Blocked; MOST_CHANGES],
     scratch: Vec<f64>,
 }
 
@@ -230,20 +232,11 @@ impl Stepper for Exponential {
         let nodes = substitution.clock().nodes(&times[..points], times[1], size);
         let basis = substitution.lagrange_basis(&nodes[..points]);
         let terms = substitution.terms(points);
-        let (mut moments, mut weights, mut last, mut decay) =
-            ([0.0; MOST_MOMENTS], [0.0; MOST_MOMENTS], f64::NAN, 1.0);
-        for (entry, (y, rate)) in y.iter_mut().zip(self.part.rates()).enumerate() {
-            if rate.to_bits() != last.to_bits() {
-                last = *rate;
-                decay = moments_at(size * rate, &mut moments[..terms]);
-                for (weight, polynomial) in weights.iter_mut().zip(&basis[..points]) {
-                    *weight =
-                        size * polynomial.iter().zip(&moments[..terms]).map(|(a, m)| a * m).sum::<f64>();
-                }
-            }
-            let driven = weights[..points].iter().zip(&self.rests).map(|(weight, rest)| weight * rest[entry]);
-            *y = decay * self.bases[1][entry] + driven.sum::<f64>();
-        }
+        let (mut moments, mut value) = (Moments::new(y.len()), Blocked::new(y.len()));
+        moments.set(size, self.part.rates(), terms);
+        let basis = (&basis[..points], terms);
+        sums::extrapolate(size, basis, moments.blocks(), (&self.bases[1], &self.rests), &mut value);
+        y.copy_from_slice(&value);
         self.part.from_eigenbasis(y);
         self.integrals.at(time)
     }

@@ -11,6 +11,16 @@ use crate::expression::vector_math::exp;
 const SMALL: f64 = 2.0;
 /// Terms of that sum, to rounding.
 const TERMS: usize = 22;
+/// 1/k.
+const INVERSES: [f64; MOST_MOMENTS + TERMS] = {
+    let mut inverses = [f64::INFINITY; MOST_MOMENTS + TERMS];
+    let mut k = 1;
+    while k < inverses.len() {
+        inverses[k] = 1.0 / k as f64;
+        k += 1;
+    }
+    inverses
+};
 /// Pairs of entries whose moments are computed at a time.
 pub const LANES: usize = 8;
 
@@ -57,15 +67,12 @@ fn by_recursion(z: [f64; LANES], decay: [f64; LANES], moments: &mut [[f64; LANES
 fn by_series(z: [f64; LANES], moments: &mut [[f64; LANES]]) {
     let Some(highest) = moments.len().checked_sub(1) else { return };
     let mut sum = [1.0; LANES];
-    for k in (1..TERMS).rev() {
-        let inverse = 1.0 / (highest + 1 + k) as f64;
+    for inverse in INVERSES[highest + 2..][..TERMS - 1].iter().rev() {
         sum = std::array::from_fn(|lane| 1.0 + sum[lane] * z[lane] * inverse);
     }
-    let inverse = 1.0 / (highest + 1) as f64;
-    moments[highest] = sum.map(|sum| sum * inverse);
+    moments[highest] = sum.map(|sum| sum * INVERSES[highest + 1]);
     for i in (1..=highest).rev() {
-        let inverse = 1.0 / i as f64;
-        moments[i - 1] = std::array::from_fn(|lane| (z[lane] * moments[i][lane] + 1.0) * inverse);
+        moments[i - 1] = std::array::from_fn(|lane| (z[lane] * moments[i][lane] + 1.0) * INVERSES[i]);
     }
 }
 
@@ -86,14 +93,6 @@ fn fill(size: f64, rates: &[f64], count: usize, blocks: &mut [Block]) {
         let rate = |k: usize| rates[(2 * (block * LANES + k)).min(rates.len() - 1)];
         target.decay = moments_of(std::array::from_fn(|k| size * rate(k)), &mut target.moments[..count]);
     }
-}
-
-/// e^z, and m₀ … mₙ₋₁ at one z, n the length of `moments`.
-pub fn moments_at(z: f64, moments: &mut [f64]) -> f64 {
-    let mut lanes = [[0.0; LANES]; MOST_MOMENTS];
-    let decay = moments_of([z; LANES], &mut lanes[..moments.len()]);
-    moments.iter_mut().zip(&lanes).for_each(|(moment, lanes)| *moment = lanes[0]);
-    decay[0]
 }
 
 /// The moments of all entries for one step size.
@@ -135,8 +134,16 @@ impl Moments {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
+
+    /// e^z, and m₀ … mₙ₋₁ at one z, n the length of `moments`.
+    pub fn moments_at(z: f64, moments: &mut [f64]) -> f64 {
+        let mut lanes = [[0.0; LANES]; MOST_MOMENTS];
+        let decay = moments_of([z; LANES], &mut lanes[..moments.len()]);
+        moments.iter_mut().zip(&lanes).for_each(|(moment, lanes)| *moment = lanes[0]);
+        decay[0]
+    }
 
     #[test]
     fn each_entry_finds_the_moments_of_its_rate() {

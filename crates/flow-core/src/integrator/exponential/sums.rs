@@ -4,13 +4,10 @@
 
 use multiversion::multiversion;
 
+use super::blocked::{Blocked, ENTRIES, Entries};
 use super::moments::{Block, LANES};
 use super::orders::MOST_MOMENTS;
 use super::polynomials::Coefficients;
-
-/// Entries of a block of moments, which belong to pairs of them.
-const ENTRIES: usize = 2 * LANES;
-type Entries = [f64; ENTRIES];
 
 /// What a new value of N changes: its difference from the past values with `weights`, times a polynomial.
 #[derive(Clone, Copy, Debug)]
@@ -29,30 +26,16 @@ pub fn extrapolate(
     h: f64,
     (basis, terms): (&[Coefficients], usize),
     blocks: &[Block],
-    (start, rests): (&[f64], &[Vec<f64>]),
-    y: &mut [f64],
+    (start, rests): (&Blocked, &[Blocked]),
+    y: &mut Blocked,
 ) {
-    let ((start, start_end), past) = (split(start), Past::of(rests, basis.len()));
-    let (y, y_end) = y.as_chunks_mut();
-    let (blocks, block_of_end) = blocks.split_at(y.len());
-    extrapolate_blocks(h, (basis, terms), blocks, (start, past.whole()), y);
-    let mut end = [[0.0; ENTRIES]];
-    extrapolate_blocks(h, (basis, terms), block_of_end, (&[start_end], &past.ends()), &mut end);
-    y_end.copy_from_slice(&end[0][..y_end.len()]);
-}
-
-#[inline(always)]
-fn extrapolate_blocks(
-    h: f64,
-    (basis, terms): (&[Coefficients], usize),
-    blocks: &[Block],
-    (start, past): (&[Entries], &[&[Entries]]),
-    y: &mut [Entries],
-) {
-    for ((index, block), (start, y)) in blocks.iter().enumerate().zip(start.iter().zip(y)) {
+    let past = Past::of(rests, basis.len());
+    for ((index, block), (start, y)) in
+        blocks.iter().enumerate().zip(start.blocks().iter().zip(y.blocks_mut()))
+    {
         let decay = twice(&block.decay);
         let mut sum: Entries = std::array::from_fn(|k| decay[k] * start[k]);
-        for (polynomial, past) in basis.iter().zip(past) {
+        for (polynomial, past) in basis.iter().zip(past.vectors()) {
             let (weight, past) = (twice(&integral(h, &polynomial[..terms], block)), &past[index]);
             for k in 0..ENTRIES {
                 sum[k] += weight[k] * past[k];
@@ -68,45 +51,29 @@ pub fn correct(
     h: f64,
     corrections: &[Correction],
     blocks: &[Block],
-    (new, rests): (&[f64], &[Vec<f64>]),
-    changes: &mut [Vec<f64>],
+    (new, rests): (&Blocked, &[Blocked]),
+    changes: &mut [Blocked],
 ) {
-    let points = corrections.iter().map(|correction| correction.points).max().unwrap_or(0);
-    let ((new, new_end), past) = (split(new), Past::of(rests, points));
-    let (blocks, block_of_end) = blocks.split_at(new.len());
     for (correction, change) in corrections.iter().zip(changes) {
-        let (change, change_end) = change.as_chunks_mut();
-        correct_blocks(h, correction, blocks, (new, past.whole()), change);
-        let mut end = [[0.0; ENTRIES]];
-        correct_blocks(h, correction, block_of_end, (&[new_end], &past.ends()), &mut end);
-        change_end.copy_from_slice(&end[0][..change_end.len()]);
-    }
-}
-
-#[inline(always)]
-fn correct_blocks(
-    h: f64,
-    correction: &Correction,
-    blocks: &[Block],
-    (new, past): (&[Entries], &[&[Entries]]),
-    change: &mut [Entries],
-) {
-    let (weights, polynomial) =
-        (&correction.weights[..correction.points], &correction.polynomial[..correction.terms]);
-    let past = &past[..weights.len()];
-    for ((index, block), (new, change)) in blocks.iter().enumerate().zip(new.iter().zip(change)) {
-        let mut missed = *new;
-        for (weight, past) in weights.iter().zip(past) {
-            let past = &past[index];
-            for k in 0..ENTRIES {
-                missed[k] -= weight * past[k];
+        let (weights, polynomial) =
+            (&correction.weights[..correction.points], &correction.polynomial[..correction.terms]);
+        let past = Past::of(rests, correction.points);
+        for ((index, block), (new, change)) in
+            blocks.iter().enumerate().zip(new.blocks().iter().zip(change.blocks_mut()))
+        {
+            let mut missed = *new;
+            for (weight, past) in weights.iter().zip(past.vectors()) {
+                let past = &past[index];
+                for k in 0..ENTRIES {
+                    missed[k] -= weight * past[k];
+                }
             }
+            let factor = twice(&integral(h, polynomial, block));
+            for k in 0..ENTRIES {
+                missed[k] *= factor[k];
+            }
+            *change = missed;
         }
-        let factor = twice(&integral(h, polynomial, block));
-        for k in 0..ENTRIES {
-            missed[k] *= factor[k];
-        }
-        *change = missed;
     }
 }
 
@@ -132,48 +99,35 @@ fn twice(values: &[f64; LANES]) -> Entries {
 /// with gathers and scatters over the blocks.
 struct Past<'a> {
     points: usize,
-    whole: [&'a [Entries]; MOST_MOMENTS],
-    ends: [Entries; MOST_MOMENTS],
+    vectors: [&'a [Entries]; MOST_MOMENTS],
 }
 
 impl<'a> Past<'a> {
     #[inline(always)]
-    fn of(rests: &'a [Vec<f64>], points: usize) -> Self {
-        let mut past = Self { points, whole: [&[]; MOST_MOMENTS], ends: [[0.0; ENTRIES]; MOST_MOMENTS] };
-        for (j, rest) in rests[..points].iter().enumerate() {
-            (past.whole[j], past.ends[j]) = split(rest);
+    fn of(rests: &'a [Blocked], points: usize) -> Self {
+        let mut past = Self { points, vectors: [&[]; MOST_MOMENTS] };
+        for (vector, rest) in past.vectors.iter_mut().zip(&rests[..points]) {
+            *vector = rest.blocks();
         }
         past
     }
 
     #[inline(always)]
-    fn whole(&self) -> &[&'a [Entries]] {
-        &self.whole[..self.points]
+    fn vectors(&self) -> &[&'a [Entries]] {
+        &self.vectors[..self.points]
     }
-
-    #[inline(always)]
-    fn ends(&self) -> [&[Entries]; MOST_MOMENTS] {
-        std::array::from_fn(|j| std::slice::from_ref(&self.ends[j]))
-    }
-}
-
-/// Whole blocks, and what is left, filled up with zeros.
-#[inline(always)]
-fn split(vector: &[f64]) -> (&[Entries], Entries) {
-    let (whole, rest) = vector.as_chunks();
-    let mut end = [0.0; ENTRIES];
-    end[..rest.len()].copy_from_slice(rest);
-    (whole, end)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::moments::{Moments, moments_at};
+    use super::super::moments::{Moments, tests::moments_at};
     use super::*;
 
     /// Values that differ from entry to entry, on a number of entries that fills no block.
-    fn vector(seed: f64) -> Vec<f64> {
-        (0..2 * ENTRIES + 7).map(|entry| (seed + entry as f64).sin()).collect()
+    fn vector(seed: f64) -> Blocked {
+        let mut vector = Blocked::new(2 * ENTRIES + 7);
+        vector.iter_mut().enumerate().for_each(|(entry, value)| *value = (seed + entry as f64).sin());
+        vector
     }
 
     #[test]
