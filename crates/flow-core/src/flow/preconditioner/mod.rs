@@ -34,8 +34,10 @@ pub enum LinearSolver {
     Auto,
     /// The symbol with the coefficients frozen at their means, diagonal in Fourier space.
     Fourier,
-    /// A banded factorisation with variable coefficients, corrected by the ratio of the symbols.
+    /// A banded factorisation with variable coefficients, corrected by the ratio of the symbols; on many nodes of the low modes only.
     Banded,
+    /// The same of all modes, at a higher cost.
+    BandedOnAllNodes,
     /// A dense factorisation of the exact operator, for few nodes.
     Dense,
 }
@@ -74,10 +76,12 @@ impl Preconditioner {
             LinearSolver::Auto | LinearSolver::Fourier => {
                 FieldInverse::Fourier(FourierSymbol::new(layout, modes))
             }
-            LinearSolver::Banded => match banded::build(flow) {
-                Some(banded) => FieldInverse::Banded(banded, FourierSymbol::new(layout, modes)),
-                None => FieldInverse::Fourier(FourierSymbol::new(layout, modes)),
-            },
+            LinearSolver::Banded | LinearSolver::BandedOnAllNodes => {
+                match banded::build(flow, kind == LinearSolver::BandedOnAllNodes) {
+                    Some(banded) => FieldInverse::Banded(banded, FourierSymbol::new(layout, modes)),
+                    None => FieldInverse::Fourier(FourierSymbol::new(layout, modes)),
+                }
+            }
             LinearSolver::Dense => FieldInverse::Dense(Dense::new(flow.spectral_layout())),
         };
         let whole = matches!(inverse, FieldInverse::Dense(_));
@@ -94,10 +98,14 @@ impl Preconditioner {
         }
     }
 
-    /// Whether a banded factorisation exists for states of this flow.
+    /// The solver for this flow that takes up where the Krylov iterations of `kind` are many; none if there is no better one.
     #[must_use]
-    pub fn banded_exists(flow: &GradientFlow) -> bool {
-        banded::exists(flow)
+    pub fn after(kind: LinearSolver, flow: &GradientFlow) -> Option<LinearSolver> {
+        match kind {
+            LinearSolver::Auto => banded::exists(flow).then_some(LinearSolver::Banded),
+            LinearSolver::Banded => banded::leaves_modes(flow).then_some(LinearSolver::BandedOnAllNodes),
+            LinearSolver::Fourier | LinearSolver::BandedOnAllNodes | LinearSolver::Dense => None,
+        }
     }
 
     /// Factorises I − γJ at the frozen state of `flow`.

@@ -51,7 +51,7 @@ impl Membrane {
         let (nodes, size) = (flow.layout().nodes(), flow.spectral_layout().len());
         let may_be_exponential = solver == LinearSolver::Auto && linear_part::exists(&flow);
         Self {
-            solver: Solver::new(solver, &flow),
+            solver: Solver::new(solver),
             invariants: Invariants::new(&mut flow),
             closure: Closure::graded(nodes, flow.grading().cloned()),
             flow,
@@ -70,7 +70,7 @@ impl Membrane {
 
     /// Goes on from where `before` stands, with what it keeps and the linear solver that served it.
     pub fn follow(&mut self, before: &Self) {
-        self.solver.follow(&before.solver);
+        self.solver.choose(before.solver.choice());
         self.invariants.set_kept_values(before.invariants.kept_values());
         self.start_angle = before.start_angle;
         self.placed = before.placed;
@@ -224,7 +224,7 @@ impl Problem for Membrane {
     }
 
     fn krylov_feedback(&mut self, iterations: usize) -> bool {
-        self.solver.learn(iterations)
+        self.solver.learn(iterations, &self.flow)
     }
 
     fn finish(&mut self, time: f64, y: &mut [f64]) -> Finish {

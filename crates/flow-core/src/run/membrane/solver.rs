@@ -1,4 +1,4 @@
-//! The linear solver of a membrane, and the choice between two of them.
+//! The linear solver of a membrane, and the choice between several of them.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,29 +6,29 @@ use crate::flow::{GradientFlow, LinearSolver, Preconditioner};
 
 /// Krylov iterations per solve, averaged, above which the automatic choice turns to the banded solver.
 const FOURIER_SERVES: f64 = 3.0;
+/// … and the banded one to a band that holds all modes, which costs more: fronts, whose high modes are small, need fewer.
+const BAND_SERVES: f64 = 10.0;
 /// Weight of the last solve in that average.
 const WEIGHT: f64 = 0.1;
 
-/// What the automatic choice has come to.
+/// What the choice has come to.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Choice {
-    may_turn_to_banded: bool,
+    kind: LinearSolver,
     mean_iterations: f64,
 }
 
 /// A preconditioner that is built once it is needed: a run that solves no linear systems has none.
 #[derive(Debug)]
 pub struct Solver {
-    kind: LinearSolver,
     choice: Choice,
     built: Option<Preconditioner>,
 }
 
 impl Solver {
     /// One of `kind`; the automatic choice starts with the symbol.
-    pub fn new(kind: LinearSolver, flow: &GradientFlow) -> Self {
-        let may_turn_to_banded = kind == LinearSolver::Auto && Preconditioner::banded_exists(flow);
-        Self { kind, choice: Choice { may_turn_to_banded, mean_iterations: 0.0 }, built: None }
+    pub fn new(kind: LinearSolver) -> Self {
+        Self { choice: Choice { kind, mean_iterations: 0.0 }, built: None }
     }
 
     /// What has been chosen so far.
@@ -38,37 +38,23 @@ impl Solver {
 
     /// Goes on from `choice`.
     pub fn choose(&mut self, choice: Choice) {
-        if !choice.may_turn_to_banded {
-            self.turn_to_banded();
-        }
-        self.choice.mean_iterations = choice.mean_iterations;
+        *self = Self { choice, built: None };
     }
 
-    /// Goes on where `before` stands.
-    pub fn follow(&mut self, before: &Self) {
-        self.choose(before.choice);
-    }
-
-    /// Whether there was a choice left to turn to the banded solver, which is taken now.
-    fn turn_to_banded(&mut self) -> bool {
-        let turns = std::mem::take(&mut self.choice.may_turn_to_banded);
-        if turns {
-            self.kind = LinearSolver::Banded;
-            self.built = None;
-        }
-        turns
-    }
-
-    /// Learns how many Krylov iterations a solve took; true if the solver is another one from now on.
-    pub fn learn(&mut self, iterations: usize) -> bool {
-        let mean = &mut self.choice.mean_iterations;
+    /// Learns how many Krylov iterations a solve for `flow` took; true if the solver is another one from now on.
+    pub fn learn(&mut self, iterations: usize, flow: &GradientFlow) -> bool {
+        let Choice { kind, mean_iterations: mean } = &mut self.choice;
         *mean += WEIGHT * (iterations as f64 - *mean);
-        *mean > FOURIER_SERVES && self.turn_to_banded()
+        let serves = if *kind == LinearSolver::Auto { FOURIER_SERVES } else { BAND_SERVES };
+        let Some(next) = Preconditioner::after(*kind, flow).filter(|_| *mean > serves) else { return false };
+        *kind = next;
+        self.built = None;
+        true
     }
 
     /// Factorises at the linearisation of `flow`; false if that fails.
     pub fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> bool {
-        let kind = self.kind;
+        let kind = self.choice.kind;
         let built = self.built.get_or_insert_with(|| Preconditioner::new(kind, flow));
         built.factorise(flow, gamma).is_ok()
     }

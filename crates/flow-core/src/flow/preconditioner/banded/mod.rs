@@ -14,8 +14,8 @@ use std::fmt::Debug;
 use coefficients::Coefficients;
 use local::LocalPart;
 use material::MaterialPart;
-use reach::diffuses;
-pub use reach::exists;
+use reach::{diffuses, most_at_first};
+pub use reach::{exists, leaves_modes};
 use window::Window;
 
 use crate::flow::gradient_flow::GradientFlow;
@@ -32,30 +32,32 @@ pub trait Banded: Debug + Send + Sync {
     fn apply(&mut self, spectra: &mut [Complex64]);
 }
 
-/// Builds the solver for the number of fields, up to four; none beyond, and none on a handful of nodes.
-pub fn build(flow: &GradientFlow) -> Option<Box<dyn Banded>> {
+/// Builds the solver for the number of fields, up to four, of all modes if it is to hold the `whole` flow; none for more fields, and
+/// none on a handful of nodes.
+pub fn build(flow: &GradientFlow, whole: bool) -> Option<Box<dyn Banded>> {
     if !exists(flow) {
         return None;
     }
+    let most = if whole { usize::MAX } else { most_at_first(flow) };
     match (flow.layout().fields(), diffuses(flow)) {
-        (1, false) => Some(of_fields::<1, 3>(flow)),
-        (2, false) => Some(of_fields::<2, 7>(flow)),
-        (3, false) => Some(of_fields::<3, 11>(flow)),
-        (4, false) => Some(of_fields::<4, 15>(flow)),
-        (1, true) => Some(of_fields::<1, 4>(flow)),
-        (2, true) => Some(of_fields::<2, 9>(flow)),
-        (3, true) => Some(of_fields::<3, 14>(flow)),
-        (4, true) => Some(of_fields::<4, 19>(flow)),
+        (1, false) => Some(of_fields::<1, 3>(flow, most)),
+        (2, false) => Some(of_fields::<2, 7>(flow, most)),
+        (3, false) => Some(of_fields::<3, 11>(flow, most)),
+        (4, false) => Some(of_fields::<4, 15>(flow, most)),
+        (1, true) => Some(of_fields::<1, 4>(flow, most)),
+        (2, true) => Some(of_fields::<2, 9>(flow, most)),
+        (3, true) => Some(of_fields::<3, 14>(flow, most)),
+        (4, true) => Some(of_fields::<4, 19>(flow, most)),
         _ => None,
     }
 }
 
-/// That of `F` fields, with a band of half-width `B`.
-fn of_fields<const F: usize, const B: usize>(flow: &GradientFlow) -> Box<dyn Banded> {
+/// That of `F` fields, with a band of half-width `B`; on equidistant nodes at most `most_nodes` of them.
+fn of_fields<const F: usize, const B: usize>(flow: &GradientFlow, most_nodes: usize) -> Box<dyn Banded> {
     if flow.layout().metric().is_some() {
         Box::new(MaterialPart::<F, B>::new(flow))
     } else {
-        Box::new(LocalPart::<F, B>::new(flow))
+        Box::new(LocalPart::<F, B>::new(flow, most_nodes))
     }
 }
 

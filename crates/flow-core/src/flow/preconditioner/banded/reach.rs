@@ -4,6 +4,10 @@ use crate::flow::gradient_flow::GradientFlow;
 
 /// Graded and co-moving nodes are crowded somewhere: fewer of them would miss what they crowd for.
 pub const MOST_UNEQUAL_NODES: usize = 8192;
+/// Of the highest modes, equidistant nodes need a band only where the coefficients vary much, by ten and more; else the symbol serves, at
+/// less cost. Sixth-order bands become inaccurate from 16384 nodes on.
+const MOST_AT_FIRST: usize = 1024;
+const MOST_AT_FIRST_OF_SURFACE_DIFFUSION: usize = 384;
 /// F fields have a band of half-width 4F − 1, which needs three times as many rows: 12 nodes for any F. With surface diffusion it is
 /// 5F − 1.
 const FEWEST_NODES: usize = 12;
@@ -16,6 +20,17 @@ pub fn exists(flow: &GradientFlow) -> bool {
     let layout = flow.layout();
     let fewest = if diffuses(flow) { FEWEST_NODES_OF_SURFACE_DIFFUSION } else { FEWEST_NODES };
     layout.nodes() >= fewest && layout.fields() <= MOST_FIELDS
+}
+
+/// How many nodes the band of `flow` has at most where a band of all modes is not asked for; graded and co-moving nodes have their own.
+pub fn most_at_first(flow: &GradientFlow) -> usize {
+    if diffuses(flow) { MOST_AT_FIRST_OF_SURFACE_DIFFUSION } else { MOST_AT_FIRST }
+}
+
+/// Whether that band leaves modes to the symbol of which one of all modes exists.
+pub fn leaves_modes(flow: &GradientFlow) -> bool {
+    let equidistant = flow.grading().is_none() && flow.layout().metric().is_none();
+    equidistant && exists(flow) && flow.layout().nodes() > most_at_first(flow)
 }
 
 /// Whether the normal mobility is that of surface diffusion, which widens the band.

@@ -1,8 +1,8 @@
-//! The local part of I − γJ with variable coefficients, by the compact fourth-order Laplacian on a grid of at most
-//! [`MOST_NODES`] nodes, corrected on both sides by the root of the ratio of the symbols.
+//! The local part of I − γJ with variable coefficients, by the compact fourth-order Laplacian on a grid of its own,
+//! corrected on both sides by the root of the ratio of the symbols.
 //!
-//! The ratio of the constant-coefficient symbols takes out what the differences miss at high modes. Modes that the
-//! coarse grid does not hold are left to the Fourier symbol. The tangential (non-local) part is of order 3 against 6
+//! The ratio of the constant-coefficient symbols takes out what the differences miss at high modes. Modes that a coarser
+//! grid does not hold are left to the Fourier symbol. The tangential (non-local) part is of order 3 against 6
 //! and left to the Krylov iteration. See `THEORY.md`, eq. (O2).
 
 mod rows;
@@ -12,16 +12,12 @@ use rows::Stencils;
 use super::super::fourier::{diagonal_symbol, mobility_symbol};
 use super::compact_laplacian::{mass_symbol, symbol_of_mass};
 use super::local_spacing::LocalSpacing;
-use super::reach::{MOST_UNEQUAL_NODES, diffuses};
+use super::reach::{MOST_UNEQUAL_NODES, diffuses, most_at_first};
 use super::{Banded, Coefficients, Window};
 use crate::flow::gradient_flow::GradientFlow;
 use crate::geometry::Complex64;
 use crate::geometry::vectors::multiply;
 use crate::operators::{CyclicBanded, FactorisationError};
-
-/// More nodes make the assembled sixth-order band inaccurate, and buy nothing; and the eighth-order one of surface diffusion.
-const MOST_NODES: usize = 1024;
-const MOST_NODES_OF_SURFACE_DIFFUSION: usize = 384;
 
 /// The band of one flow whose metric is no field.
 #[derive(Debug)]
@@ -48,15 +44,11 @@ pub struct LocalPart<const F: usize, const B: usize> {
 }
 
 impl<const F: usize, const B: usize> LocalPart<F, B> {
-    /// For `flow`.
-    pub fn new(flow: &GradientFlow) -> Self {
+    /// For `flow`, on at most `most_nodes` nodes if they are equidistant.
+    pub fn new(flow: &GradientFlow, most_nodes: usize) -> Self {
         let (nodes, grading) = (flow.layout().nodes(), flow.grading());
         let is_surface_diffusion = diffuses(flow);
-        let most = match (grading, is_surface_diffusion) {
-            (Some(_), _) => MOST_UNEQUAL_NODES,
-            (None, false) => MOST_NODES,
-            (None, true) => MOST_NODES_OF_SURFACE_DIFFUSION,
-        };
+        let most = if grading.is_some() { MOST_UNEQUAL_NODES } else { most_nodes };
         let coarse = nodes.min(most);
         let window = Window::new(nodes, coarse);
         let grid = &window.grid;
@@ -79,7 +71,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
 
     /// That which counts the energy density as convex.
     pub fn convex(flow: &GradientFlow) -> Self {
-        Self { is_convex: true, ..Self::new(flow) }
+        Self { is_convex: true, ..Self::new(flow, most_at_first(flow)) }
     }
 
     /// Symbols of the diagonal block of `field` with mean coefficients: by second differences with the normal mobility
