@@ -9,19 +9,23 @@ use crate::flow::{
 use crate::geometry::PeriodicGrid;
 use crate::operators::Derivative;
 
+/// Part of the tolerance that counts as no deviation from a circle where length and area are kept: such a curve can move by twice that.
+const ROUND: f64 = 0.25;
+
 /// The normal mobility of a scene.
 pub fn normal_mobility(
-    mobility: scene::NormalMobility,
+    scene: &Scene,
     grid: &PeriodicGrid,
     derivative: &Derivative,
 ) -> Box<dyn NormalMobility> {
     let nodes = grid.nodes();
-    match mobility {
+    match scene.flow.normal_mobility {
         scene::NormalMobility::Identity => Box::new(Identity),
         scene::NormalMobility::Incompressible => Box::new(Incompressible::new(derivative, nodes)),
         scene::NormalMobility::AreaPreserving => Box::new(AreaPreserving),
         scene::NormalMobility::IncompressibleAreaPreserving => {
-            Box::new(IncompressibleAreaPreserving::new(derivative, nodes))
+            let deviation = ROUND * scene.accuracy.tolerance;
+            Box::new(IncompressibleAreaPreserving::new(derivative, nodes).holding_circles(deviation))
         }
         scene::NormalMobility::SurfaceDiffusion => Box::new(SurfaceDiffusion::new(grid, derivative)),
     }

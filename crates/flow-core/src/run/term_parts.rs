@@ -86,7 +86,7 @@ fn flow_of(
     let grid = PeriodicGrid::new(layout.nodes());
     let energy = EnergySum::new(vec![term], layout, &grid, derivative);
     let map = FlowMap::in_gauge(scene.flow.gauge.rule(), layout, &grid, derivative);
-    let normal = normal_mobility(scene.flow.normal_mobility, &grid, derivative);
+    let normal = normal_mobility(scene, &grid, derivative);
     let densities = (0..layout.densities()).map(|_| Box::new(Carried) as _).collect();
     GradientFlow::new(map, energy, layout, normal, densities)
 }

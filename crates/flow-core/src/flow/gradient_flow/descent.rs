@@ -32,6 +32,13 @@ impl Place {
         }
     }
 
+    /// Minus the mean of the tension that holds every piece of the curve against what holds its area.
+    pub fn tension_for_area(&mut self, force: &[f64]) -> f64 {
+        let multiplier = self.mobility.area_multiplier(&self.fields, force);
+        let kappa = self.fields.at_nodes(0);
+        multiplier * self.fields.mean(kappa) / self.fields.mean_of_product(kappa, kappa)
+    }
+
     /// What holds every piece of the curve, NaN where the mobility is not defined.
     pub fn holding_tension(&mut self, force: &[f64], tension: &mut [f64]) {
         if self.fault.is_some() {

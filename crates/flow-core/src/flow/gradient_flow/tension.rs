@@ -3,7 +3,7 @@
 use super::{Descent, GradientFlow};
 use crate::flow::energy_sum::EnergySum;
 use crate::flow::intrinsic_gradient::IntrinsicGradient;
-use crate::geometry::vectors::{add_product, add_scaled, mean};
+use crate::geometry::vectors::{add_product, add_scaled, mean, shift};
 use crate::geometry::{Complex64, Layout};
 
 /// The tension at a linearisation.
@@ -41,14 +41,16 @@ impl GradientFlow {
         if self.energy.depends_on_positions() {
             return self.freeze_tension_of_positions();
         }
-        let Self { descent: Descent { map, gradient, .. }, frozen, tension, .. } = self;
+        let Self { descent: Descent { map, gradient, force, .. }, frozen, tension, .. } = self;
         let FrozenTension { stretching, mean: tension, .. } = tension;
         map.stretching(&frozen.fields, &gradient.spectra, gradient.by_length, stretching);
         if frozen.mobility.keeps().length {
             // 𝓑 takes κ to zero on every curve: a mean tension moves nothing, and its derivative is not that of the force alone.
             let mean = frozen.fields.mean(stretching);
-            for value in &mut *stretching {
-                *value -= mean;
+            shift(stretching, -mean);
+            if frozen.mobility.keeps().area {
+                map.complete_force(&frozen.fields, &gradient.spectra, stretching, force);
+                shift(stretching, frozen.tension_for_area(force));
             }
         }
         *tension = -mean(stretching);

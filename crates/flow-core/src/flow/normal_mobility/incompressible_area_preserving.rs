@@ -4,11 +4,12 @@ use super::{Incompressible, Kept, MobilityError, NormalMobility};
 use crate::flow::CurveFields;
 use crate::operators::Derivative;
 
-/// Mean square of the part of 1 off κ below which the curve is a circle to rounding: 1 is in the kernel of 𝓘.
-const ROUND: f64 = 1e-24;
+/// Root mean square of the part of 1 off κ below which the curve is a circle to rounding: 1 is in the kernel of 𝓘.
+const ROUND: f64 = 1e-12;
 
 /// Every piece of the curve keeps its length, and the area is held: V = 𝓘f − (⟨𝓘f, 1⟩/⟨𝓘1, 1⟩) 𝓘1 with 𝓘 of
-/// [`Incompressible`](super::Incompressible). See `THEORY.md`, eq. (F10). On a circle 𝓘1 = 0, and 𝓘 keeps the area by itself.
+/// [`Incompressible`](super::Incompressible). See `THEORY.md`, eq. (F10). On a circle 𝓘1 = 0, and 𝓑 = 0: of all curves of its length that
+/// one alone has its area.
 #[derive(Clone, Debug)]
 pub struct IncompressibleAreaPreserving {
     incompressible: Incompressible,
@@ -19,6 +20,8 @@ pub struct IncompressibleAreaPreserving {
     less: Vec<f64>,
     /// 1/⟨𝓘1, 1⟩, or 0 on a circle.
     inverse: f64,
+    /// ⟨𝓘1, 1⟩ up to which the curve counts as a circle.
+    round: f64,
 }
 
 impl IncompressibleAreaPreserving {
@@ -32,7 +35,23 @@ impl IncompressibleAreaPreserving {
             image: vec![0.0; nodes],
             less: vec![0.0; nodes],
             inverse: 0.0,
+            round: ROUND * ROUND,
         }
+    }
+
+    /// The same that takes a curve for a circle, and holds it, whose curvature varies by the part `deviation` of itself at most, in the
+    /// root mean square.
+    ///
+    /// Length and area leave such a curve a sphere of about this radius about the circle, which the flow crosses the faster the
+    /// smaller it is: where that is less than errors of the steps, they could but jump to and fro on it.
+    #[must_use]
+    pub fn holding_circles(mut self, deviation: f64) -> Self {
+        self.round = deviation.max(ROUND).powi(2);
+        self
+    }
+
+    fn is_circle(&self) -> bool {
+        self.inverse == 0.0
     }
 }
 
@@ -43,11 +62,15 @@ impl NormalMobility for IncompressibleAreaPreserving {
         self.incompressible.project(at, &mut self.one);
         self.incompressible.apply(at, &self.one, &mut self.image);
         let square = at.mean_of_product(&self.image, &self.one);
-        self.inverse = if square > ROUND { 1.0 / square } else { 0.0 };
+        self.inverse = if square > self.round { 1.0 / square } else { 0.0 };
         Ok(())
     }
 
     fn apply(&mut self, at: &CurveFields, force: &[f64], velocity: &mut [f64]) {
+        if self.is_circle() {
+            velocity.fill(0.0);
+            return;
+        }
         self.incompressible.apply(at, force, velocity);
         let factor = self.inverse * at.mean_of_product(velocity, &self.one);
         for (v, image) in velocity.iter_mut().zip(&self.image) {
@@ -68,7 +91,7 @@ impl NormalMobility for IncompressibleAreaPreserving {
     }
 
     fn symbol(&self, wave_square: f64) -> f64 {
-        self.incompressible.symbol(wave_square)
+        if self.is_circle() { 0.0 } else { self.incompressible.symbol(wave_square) }
     }
 
     fn keeps(&self) -> Kept {
