@@ -85,20 +85,19 @@ impl Workspace {
         }
     }
 
-    /// Σ δφ ∂_s p over the fields, at the flux points, into `product`: of the nodal `motion` δφ the mean of the two nodes beside each.
+    /// Σ δφ ∂_s p over the fields, at the flux points, into `product`, of the nodal `motion` δφ.
     pub fn pair_with_slopes(&mut self, motion: &[f64], slopes: &[f64]) {
         let nodes = self.layout.nodes();
-        let between = self.derivative.interpolation().is_some();
         self.product.fill(0.0);
         for (motion, slopes) in motion.chunks_exact(nodes).zip(slopes.chunks_exact(nodes)) {
-            if !between {
+            let Some(interpolation) = self.derivative.interpolation() else {
                 add_product(&mut self.product, motion, slopes);
                 continue;
-            }
-            let after = motion[1..].iter().chain(&motion[..1]);
-            for (((sum, own), after), slope) in self.product.iter_mut().zip(motion).zip(after).zip(slopes) {
-                *sum += 0.5 * (own + after) * slope;
-            }
+            };
+            self.grid.transform(motion, &mut self.spectrum);
+            multiply_by(&mut self.spectrum, interpolation);
+            self.grid.synthesise(&self.spectrum, &mut self.values);
+            add_product(&mut self.product, &self.values, slopes);
         }
     }
 

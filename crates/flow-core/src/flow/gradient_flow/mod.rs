@@ -111,7 +111,8 @@ impl GradientFlow {
             velocity: vec![0.0; layout.nodes()],
             spectrum: vec![Complex64::default(); layout.modes()],
         };
-        let tension = FrozenTension::new(layout, &energy);
+        let carries = descent.density_mobilities.iter().any(|mobility| mobility.is_zero());
+        let tension = FrozenTension::new(layout, &energy, carries);
         Self {
             energy,
             descent,

@@ -22,14 +22,14 @@ pub struct FrozenTension {
 }
 
 impl FrozenTension {
-    /// For states of `layout` with this `energy`.
-    pub fn new(layout: Layout, energy: &EnergySum) -> Self {
+    /// For states of `layout` with this `energy`, some density of which the curve only carries along if it `carries` one.
+    pub fn new(layout: Layout, energy: &EnergySum, carries: bool) -> Self {
         let room = |size: usize, needed: bool| if needed { size } else { 0 };
         let (nodes, positions) = (layout.nodes(), energy.depends_on_positions());
         let spectra = room(layout.state_fields() * layout.modes(), positions);
         let held = IntrinsicGradient { spectra: vec![Complex64::default(); spectra], by_length: 0.0 };
         // Nodes that only move along the normal have no tension of W.
-        let moves = positions && !energy.is_of_positions_alone() && layout.metric().is_none();
+        let moves = (positions && !energy.is_of_positions_alone() || carries) && layout.metric().is_none();
         let slopes = vec![0.0; room(layout.fields() * nodes, moves)];
         Self { stretching: vec![0.0; nodes], slopes, mean: 0.0, holding: vec![0.0; nodes], held }
     }
@@ -42,7 +42,10 @@ impl GradientFlow {
             return self.freeze_tension_of_positions();
         }
         let Self { descent: Descent { map, gradient, force, .. }, frozen, tension, .. } = self;
-        let FrozenTension { stretching, mean: tension, .. } = tension;
+        let FrozenTension { stretching, slopes, mean: tension, .. } = tension;
+        if !slopes.is_empty() {
+            map.set_slopes(&gradient.spectra, slopes);
+        }
         map.stretching(&frozen.fields, &gradient.spectra, gradient.by_length, stretching);
         if frozen.mobility.keeps().length {
             // 𝓑 takes κ to zero on every curve: a mean tension moves nothing, and its derivative is not that of the force alone.
