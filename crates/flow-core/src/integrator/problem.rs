@@ -107,6 +107,10 @@ pub trait Problem {
     fn rests_with_its_energy(&self) -> bool {
         false
     }
+    /// Whether errors of the state fade with the flow; what is only carried along keeps them.
+    fn forgets(&self) -> bool {
+        true
+    }
     /// Energy that the rounding of the state finished last may add or take away, where the energy itself is near zero.
     fn energy_rounding(&self, _y: &[f64]) -> f64 {
         0.0

@@ -62,6 +62,11 @@ pub struct Descent {
 }
 
 impl Descent {
+    /// Whether a density is only carried along, over nodes that are not material.
+    pub fn carries_over_nodes(&self) -> bool {
+        self.layout.metric().is_none() && self.density_mobilities.iter().any(|mobility| mobility.is_zero())
+    }
+
     /// Force of the gradient at hand.
     pub fn set_force(&mut self, at: &CurveFields) {
         self.map.force(at, &self.gradient.spectra, self.gradient.by_length, &mut self.force);

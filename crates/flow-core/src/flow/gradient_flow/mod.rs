@@ -111,8 +111,7 @@ impl GradientFlow {
             velocity: vec![0.0; layout.nodes()],
             spectrum: vec![Complex64::default(); layout.modes()],
         };
-        let carries = descent.density_mobilities.iter().any(|mobility| mobility.is_zero());
-        let tension = FrozenTension::new(layout, &energy, carries);
+        let tension = FrozenTension::new(layout, &energy, descent.carries_over_nodes());
         Self {
             energy,
             descent,

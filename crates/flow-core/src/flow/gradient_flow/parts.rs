@@ -29,6 +29,12 @@ impl GradientFlow {
         &self.descent.density_mobilities
     }
 
+    /// Whether a density is only carried along, over nodes that are not material: then nothing makes good what errors leave of it.
+    #[must_use]
+    pub fn carries_over_nodes(&self) -> bool {
+        self.descent.carries_over_nodes()
+    }
+
     /// The normal mobility at the linearisation.
     #[must_use]
     pub fn normal_mobility(&self) -> &dyn NormalMobility {

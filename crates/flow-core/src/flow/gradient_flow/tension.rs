@@ -22,15 +22,15 @@ pub struct FrozenTension {
 }
 
 impl FrozenTension {
-    /// For states of `layout` with this `energy`, some density of which the curve only carries along if it `carries` one.
+    /// For states of `layout` with this `energy`, some density of which is only carried along over the nodes if the flow `carries` one.
     pub fn new(layout: Layout, energy: &EnergySum, carries: bool) -> Self {
         let room = |size: usize, needed: bool| if needed { size } else { 0 };
         let (nodes, positions) = (layout.nodes(), energy.depends_on_positions());
         let spectra = room(layout.state_fields() * layout.modes(), positions);
         let held = IntrinsicGradient { spectra: vec![Complex64::default(); spectra], by_length: 0.0 };
         // Nodes that only move along the normal have no tension of W.
-        let moves = (positions && !energy.is_of_positions_alone() || carries) && layout.metric().is_none();
-        let slopes = vec![0.0; room(layout.fields() * nodes, moves)];
+        let moves = positions && !energy.is_of_positions_alone() && layout.metric().is_none();
+        let slopes = vec![0.0; room(layout.fields() * nodes, moves || carries)];
         Self { stretching: vec![0.0; nodes], slopes, mean: 0.0, holding: vec![0.0; nodes], held }
     }
 }

@@ -24,6 +24,10 @@ pub(super) const HIGHEST_ORDER: usize = 5;
 /// Newton's method is solved to this part of the local tolerance: the square of its error, weighted by the
 /// stiffness, enters the dissipation and with it the energy balance.
 const NEWTON_SHARE: f64 = 0.4;
+/// … and to this part of that where the flow does not forget, or of the same for the largest local tolerance below: what solves leave on
+/// short waves adds up from step to step then, and must stay below what nodes may leave unresolved.
+const UNFORGOTTEN: f64 = 0.03;
+const LARGEST_UNFORGOTTEN: f64 = 3e-4;
 
 /// A step whose stage was not solved is tried again with this part of it, as usual for BDF codes.
 const NEWTON_CUT: f64 = 0.25;
@@ -38,6 +42,8 @@ pub struct Bdf {
     norm: ErrorNorm,
     newton: NewtonKrylov,
     tolerance: f64,
+    /// Error to which stages are solved, as far as they need not be solved better.
+    goal: f64,
     pace: Pace,
     predicted: Vec<f64>,
     constant: Vec<f64>,
@@ -114,6 +120,9 @@ impl Bdf {
     pub fn resume(problem: &dyn Problem, mut memory: Memory, tolerance: f64) -> Self {
         memory.integrals.serve_order(HIGHEST_ORDER);
         let size = problem.size();
+        let tolerance = local_tolerance(tolerance);
+        let share =
+            if problem.forgets() { 1.0 } else { UNFORGOTTEN * (LARGEST_UNFORGOTTEN / tolerance).min(1.0) };
         let mut newton = NewtonKrylov::new(size);
         newton.set_factorisation(memory.factorisation);
         Self {
@@ -121,7 +130,8 @@ impl Bdf {
             integrals: memory.integrals,
             norm: ErrorNorm::new(problem),
             newton,
-            tolerance: local_tolerance(tolerance),
+            tolerance,
+            goal: share * NEWTON_SHARE * tolerance,
             pace: memory.pace,
             predicted: vec![0.0; size],
             constant: vec![0.0; size],
@@ -131,8 +141,7 @@ impl Bdf {
     }
 
     fn exactness(&self) -> Exactness {
-        let goal = NEWTON_SHARE * self.pace.exactness * self.tolerance;
-        Exactness { goal, residual: self.pace.residual }
+        Exactness { goal: self.pace.exactness * self.goal, residual: self.pace.residual }
     }
 }
 

@@ -99,6 +99,10 @@ impl<P: Problem> Problem for Clocked<'_, P> {
         self.problem.rests_with_its_energy()
     }
 
+    fn forgets(&self) -> bool {
+        self.problem.forgets()
+    }
+
     fn energy_rounding(&self, y: &[f64]) -> f64 {
         self.problem.energy_rounding(y)
     }

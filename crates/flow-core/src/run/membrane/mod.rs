@@ -276,6 +276,10 @@ impl Problem for Membrane {
         true // a gradient flow
     }
 
+    fn forgets(&self) -> bool {
+        !self.flow.carries_over_nodes()
+    }
+
     fn energy_rounding(&self, y: &[f64]) -> f64 {
         f64::EPSILON * self.flow.energy_sensitivity(y)
     }
