@@ -3,7 +3,8 @@
 use super::choices::family;
 use super::mobilities::{density_mobilities, normal_mobility};
 use super::record::{Frame, Record};
-use super::scene::{Bending, Formula, Scene};
+use super::scene::{Bending, Formula, Local, Scene};
+use crate::expression::Expression;
 use crate::flow::Kept;
 use crate::geometry::PeriodicGrid;
 use crate::geometry::vectors::mean_of_product;
@@ -20,8 +21,8 @@ pub(super) fn energy_scale(scene: &Scene, record: &Record) -> EnergyScale {
 /// be one.
 fn constant_energy(scene: &Scene, record: &Record, first: &Frame) -> f64 {
     let energy = &scene.energy;
-    let preferred = energy.bending.as_ref().and_then(Bending::constant_preferred_curvature);
-    if energy.length.is_none() && energy.local.is_none() && preferred.is_none() {
+    let bending = energy.bending.as_ref().filter(|bending| bending.preferred_curvature.is_some());
+    if energy.length.is_none() && energy.local.is_none() && bending.is_none() {
         return 0.0;
     }
     let Some((kept, masses)) = kept(scene) else { return 0.0 };
@@ -33,29 +34,84 @@ fn constant_energy(scene: &Scene, record: &Record, first: &Frame) -> f64 {
         terms.filter(|(name, _)| costs_length && *name == "length").map(|(_, value)| value).sum::<f64>();
     let length = kept.length.then_some(first.length);
     let turning = mean_of_product(&first.curvature, &first.metric);
-    let of_bending = energy.bending.as_ref().zip(preferred).map_or(0.0, |(bending, preferred)| {
-        bending.rigidity * preferred * (0.5 * preferred * length.unwrap_or(0.0) - turning)
+    let curvature = Integral { mean: turning / first.length, kept: Some(turning) };
+    let densities = masses.iter().zip(&first.mass);
+    let densities: Vec<Integral> = densities
+        .map(|(kept, mass)| Integral { mean: mass / first.length, kept: kept.then_some(*mass) })
+        .collect();
+    let of_bending = bending.map_or(0.0, |bending| {
+        let density = scene.density.iter().position(|known| bending.density.as_ref() == Some(&known.name));
+        let density = density.map_or(&[][..], |at| &densities[at..=at]);
+        of_tangent(&|fields| bending_plane(bending, fields), length, curvature, density)
     });
-    let of_local = energy.local.as_ref().map_or(0.0, |local| {
-        // Its variables are each field and its slope, the curvature first.
-        let masses = masses.iter().zip(&first.mass).map(|(kept, mass)| kept.then_some(*mass));
-        let integrals = std::iter::once(Some(turning)).chain(masses).enumerate();
-        let integrals = integrals.filter_map(|(field, integral)| Some((2 * field, integral?)));
-        of_tangent(&local.expression, length, integrals)
-    });
+    let of_local = energy
+        .local
+        .as_ref()
+        .map_or(0.0, |local| of_tangent(&|fields| local_plane(local, fields), length, curvature, &densities));
     of_length + of_bending + of_local
 }
 
-/// What the tangent plane of the density `e` at fields that are zero adds up to along the curve, as far as its integrals are kept:
-/// the length, that of 1, and those of some variables. What is not finite there says nothing.
-fn of_tangent(e: &Formula, length: Option<f64>, integrals: impl Iterator<Item = (usize, f64)>) -> f64 {
-    let (e, zero) = (e.expression(), vec![0.0; e.variables().len()]);
-    let at_zero = length.map(|length| e.evaluate(&zero) * length);
-    let slopes =
-        integrals.filter(|(variable, _)| e.depends_on(*variable)).filter_map(|(variable, integral)| {
-            e.derivative(variable).ok().map(|slope| slope.evaluate(&zero) * integral)
+/// Where tangent planes are looked for, the first that exists being taken: parts of the means of the curvature and of the densities.
+const BASES: [[f64; 2]; 5] = [[0.0, 0.0], [0.0, 0.5], [0.0, 1.0], [0.5, 0.5], [1.0, 1.0]];
+
+/// What a field adds up to along the curve at the start.
+#[derive(Clone, Copy)]
+struct Integral {
+    /// Per length.
+    mean: f64,
+    /// The integral itself, if the flow keeps it.
+    kept: Option<f64>,
+}
+
+/// What a tangent plane of a density of the energy adds up to along the curve, as far as its integrals are kept: the `length`, that of 1,
+/// and those of fields. `plane` gives the value and the slope along each field at values of the fields, the curvature first.
+///
+/// Any plane will do, but the nearer its base is to the state, the less it leaves. That at fields that are zero leaves all of κ²/2, and of
+/// (ρ − 1)² what varies. Where there is none (a ln a), densities are half their means, which leaves of each cost its natural size also
+/// where they hardly vary; and so on as [`BASES`] says.
+fn of_tangent(
+    plane: &dyn Fn(&[f64]) -> (f64, Vec<f64>),
+    length: Option<f64>,
+    curvature: Integral,
+    densities: &[Integral],
+) -> f64 {
+    let integrals: Vec<Integral> = std::iter::once(curvature).chain(densities.iter().copied()).collect();
+    let at = |[of_curvature, of_densities]: &[f64; 2]| {
+        let densities = densities.iter().map(|density| of_densities * density.mean);
+        let base: Vec<f64> = std::iter::once(of_curvature * curvature.mean).chain(densities).collect();
+        let (value, slopes) = plane(&base);
+        let of_length = length.map(|length| value * length);
+        let of_fields = integrals.iter().zip(&base).zip(slopes).filter_map(|((integral, base), slope)| {
+            let excess = integral.kept? - base * length.unwrap_or(0.0);
+            // A field that does not matter may have a mean that is no number.
+            (slope != 0.0).then_some(slope * excess)
         });
-    at_zero.into_iter().chain(slopes).filter(|part| part.is_finite()).sum()
+        Some(of_length.into_iter().chain(of_fields).sum::<f64>()).filter(|sum| sum.is_finite())
+    };
+    BASES.iter().find_map(at).unwrap_or(0.0)
+}
+
+/// The tangent plane of (b/2)(κ − c₀(ρ))² at the curvature and the density on which c₀ depends, if it does.
+fn bending_plane(bending: &Bending, fields: &[f64]) -> (f64, Vec<f64>) {
+    let preferred = bending.preferred_curvature.as_ref().map(Formula::expression);
+    let at = |c: &Expression| c.evaluate(&[fields.get(1).copied().unwrap_or(0.0)]);
+    let excess = fields[0] - preferred.map_or(0.0, at);
+    let by_excess = bending.rigidity * excess;
+    let by_density = preferred.filter(|_| fields.len() > 1).and_then(|c| c.derivative(0).ok());
+    let by_density = by_density.map(|c| -by_excess * at(&c));
+    (0.5 * by_excess * excess, std::iter::once(by_excess).chain(by_density).collect())
+}
+
+/// The tangent plane of a local density at fields without slopes; its variables are each field and its slope.
+fn local_plane(local: &Local, fields: &[f64]) -> (f64, Vec<f64>) {
+    let e = local.expression.expression();
+    let point: Vec<f64> = fields.iter().flat_map(|field| [*field, 0.0]).collect();
+    let slope = |field| {
+        // One that is too large to be told has none that is known.
+        let slope = e.depends_on(2 * field).then(|| e.derivative(2 * field).ok()).flatten();
+        slope.map_or(0.0, |slope| slope.evaluate(&point))
+    };
+    (e.evaluate(&point), (0..fields.len()).map(slope).collect())
 }
 
 /// What the flow of `scene` keeps whatever its energy: of the curve, and whether the mass of each density.
@@ -71,7 +127,7 @@ fn kept(scene: &Scene) -> Option<(Kept, Vec<bool>)> {
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::TAU;
+    use std::f64::consts::{LN_2, LN_10, TAU};
 
     use super::*;
     use crate::run::Simulation;
@@ -103,9 +159,23 @@ mod tests {
             ("local.expression = '0.5*(kappa - 4)^2'", 8.0 * TAU - 4.0 * TAU, -4.0 * TAU),
             ("local.expression = '(kept - 3)^2 + free_sigma^2'", 9.0 * TAU - 3.0 * TAU, -3.0 * TAU),
             ("local.expression = '(free - 3)^2 + kappa^2'", 9.0 * TAU, 0.0),
-            // No tangent there: nothing is known of the one, and of the other but its value.
-            ("local.expression = 'kept*ln(kept) + kappa^2'", 0.0, 0.0),
-            ("local.expression = '2 + sqrt(kept) + kappa^2'", 2.0 * TAU, 0.0),
+            (
+                "bending = { rigidity = 3.0, preferred_curvature = 'rho + 2', density = 'kept' }",
+                3.0 * TAU,
+                -3.0 * TAU,
+            ),
+            (
+                "bending = { rigidity = 3.0, preferred_curvature = 'rho + 2', density = 'free' }",
+                0.0,
+                -6.0 * TAU,
+            ),
+            ("bending = { rigidity = 3.0, preferred_curvature = '2*rho', density = 'kept' }", 0.0, 0.0),
+            // No tangent there: at half the density, at all of it if it must be, and so with the curvature.
+            ("local.expression = '2 + kept*ln(kept) + kappa^2'", (2.25 - LN_2) * TAU, (0.5 - LN_2) * TAU),
+            ("local.expression = '2 + free*ln(free) + kappa^2'", (2.0 - 0.5 * LN_2) * TAU, 0.0),
+            ("local.expression = '2 + sqrt(kept) + kappa^2'", 2.75 * TAU, 0.5 * TAU),
+            ("local.expression = '2 + ln(kept - 0.4) + kappa^2'", (2.0 - LN_10) * TAU, 5.0 * TAU),
+            ("local.expression = '2 + kappa*ln(kappa)'", (2.5 - LN_2) * TAU, (1.0 - LN_2) * TAU),
             ("local.expression = 'kappa^2', length.tension = 5.0", 5.0 * TAU, 0.0),
         ] {
             for (mobility, exact) in [("incompressible", with_length), ("identity", without)] {

@@ -62,15 +62,6 @@ impl EnergyTable for Bending {
     }
 }
 
-impl Bending {
-    /// c₀ if it is a number other than 0.
-    pub(in crate::run) fn constant_preferred_curvature(&self) -> Option<f64> {
-        let preferred = self.preferred_curvature.as_ref()?.expression();
-        let value = (!preferred.depends_on(0)).then(|| preferred.evaluate(&[0.0]))?;
-        (value != 0.0).then_some(value)
-    }
-}
-
 /// A formula of `rho`, which must have a meaning if it occurs.
 fn of_density(entry: &Entry<'_>, densities: &[String]) -> Option<Formula> {
     let formula = entry.formula(&["rho"])?;
