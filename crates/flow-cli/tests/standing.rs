@@ -74,6 +74,33 @@ fn a_run_that_has_just_begun_is_told() {
     }
 }
 
+/// A run that goes on is shown by where it was stopped until it has come further.
+#[test]
+fn a_run_that_has_just_gone_on_is_shown_by_where_it_was_stopped() {
+    let folder = Folder::new("gone_on");
+    let stopped = folder.long("out.h5").args(["--max-wall", "0.2"]).output().unwrap();
+    assert_eq!(code(&stopped), 6, "{}", said(&stopped));
+    let steps = format!("\"steps\": {},", folder.record("out.h5").counters.steps);
+    for has_result in [true, false] {
+        if !has_result {
+            fs::remove_file(folder.0.join("out.h5")).unwrap(); // as after a kill
+        }
+        let mut run = folder.long("out.h5").arg("--resume").spawn().unwrap();
+        wait_for(&folder.0.join("out.h5.lock"));
+        std::thread::sleep(std::time::Duration::from_millis(50));
+        let seen = folder.call(&["info", "out.h5", "--json"]);
+        run.kill().unwrap();
+        run.wait().unwrap();
+        let note = if has_result {
+            "goes on, which has written nothing since it began"
+        } else {
+            "newest checkpoint"
+        };
+        assert!(said(&seen).contains(note), "{}", said(&seen));
+        assert!(String::from_utf8_lossy(&seen.stdout).contains(&steps), "{steps}");
+    }
+}
+
 /// Killed after it was stopped and had gone on.
 #[test]
 fn a_run_is_shown_as_far_as_it_has_come() {
