@@ -3,11 +3,18 @@
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
+use std::thread::sleep;
+use std::time::Duration;
 
 use super::pair::files;
 use crate::output::links::{beside, followed};
 use crate::output::temporary::remove_left;
 use crate::output::{Operation, StorageError};
+
+/// How often, and how long apart, a lock that is taken is asked for before it counts as that of a run: whoever asks whether a run goes on
+/// holds it for an instant.
+const ATTEMPTS: u32 = 20;
+const PAUSE: Duration = Duration::from_millis(5);
 
 /// Held while a run writes to a result file; given back when dropped, and by the system if the process dies.
 #[derive(Debug)]
@@ -31,7 +38,8 @@ impl Lock {
         Ok(lock)
     }
 
-    /// Whether a run has the lock of the result file `result`, as far as can be told without making one.
+    /// Whether a run has the lock of the result file `result`, as far as can be told without making one. There is no way to ask without
+    /// taking it for an instant, shared by all who ask; a run that begins meanwhile waits for that.
     #[must_use]
     pub fn is_held(result: &Path) -> bool {
         let Ok(file) = File::open(beside(result, ".lock")) else { return false };
@@ -49,6 +57,7 @@ impl Lock {
         result: &Path,
     ) -> Result<Self, StorageError> {
         let path = beside(result, ".lock");
+        let mut refusals = 0;
         loop {
             let file = OpenOptions::new().create(true).truncate(false).write(true).open(&path);
             let file = file.map_err(|reason| StorageError::system(result, Operation::Create, reason))?;
@@ -56,6 +65,11 @@ impl Lock {
                 // The one before us may have removed the file that we opened.
                 Ok(()) if !is_named(&file, &path) => continue,
                 Ok(()) => None,
+                Err(TryLockError::WouldBlock) if refusals < ATTEMPTS => {
+                    refusals += 1;
+                    sleep(PAUSE);
+                    continue;
+                }
                 Err(TryLockError::WouldBlock) => {
                     return Err(StorageError::Busy { path: result.to_path_buf() });
                 }
@@ -109,5 +123,20 @@ mod tests {
         drop(lock);
         assert!(!Lock::is_held(&result));
         assert!(!beside(&result, ".lock").exists());
+    }
+
+    #[test]
+    fn who_only_asks_does_not_keep_a_run_from_beginning() {
+        let result = std::env::temp_dir().join(format!("curveflow-asked-{}.h5", std::process::id()));
+        let asking = File::create(beside(&result, ".lock")).unwrap();
+        asking.lock_shared().unwrap();
+        assert!(!Lock::is_held(&result), "of those who ask none is a run");
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                sleep(2 * PAUSE);
+                drop(asking);
+            });
+            assert!(Lock::of(&result).unwrap().missing().is_none());
+        });
     }
 }
