@@ -2,11 +2,12 @@
 
 from collections.abc import Iterator
 from dataclasses import fields, replace
-from typing import Any, get_args, get_type_hints
+from typing import Any, get_args, get_origin, get_type_hints
 
 import numpy as np
 
 import curveflow as cf
+from curveflow.model.table import Taken
 
 
 def choices(table: type, key: str) -> tuple[str, ...]:
@@ -14,6 +15,8 @@ def choices(table: type, key: str) -> tuple[str, ...]:
 
     def names(annotation: Any) -> tuple[str, ...]:
         inner = get_args(annotation)
+        if get_origin(annotation) is Taken:
+            inner = inner[:1]  # as it is given
         return tuple(name for arg in inner for name in ((arg,) if isinstance(arg, str) else names(arg)))
 
     return names(get_type_hints(table)[key])

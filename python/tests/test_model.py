@@ -80,6 +80,15 @@ def test_arrays_and_scalars_of_numpy_are_numbers():
     assert cf.Accuracy(nodes=np.int32(64)) == cf.Accuracy(nodes=64)
 
 
+def test_whatever_counts_is_a_count():
+    class Many:
+        def __index__(self) -> int:
+            return 64
+
+    for scene in (replace(BASE, accuracy=cf.Accuracy(nodes=Many())), BASE.with_values({"accuracy.nodes": Many()})):
+        assert scene.accuracy.nodes == 64
+
+
 @pytest.mark.parametrize("tenth", [np.longdouble(0.1), Decimal("0.1"), Fraction(1, 10)])
 def test_other_numbers_are_floats(tenth: Any):
     assert type(cf.Time(tenth).end) is float

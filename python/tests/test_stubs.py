@@ -23,6 +23,11 @@ cf.tradeoff(scene, [np.float32(1e-2)], reference_nodes=np.int64(64)).cheapest(np
 system = cf.System(scene)
 system.linearise(system.initial)
 system.factorise(np.float32(0.1))
+accuracy = cf.Accuracy(nodes=np.int64(256))
+output, time = cf.Output(frames=np.int32(3)), cf.Time(end=1.0, max_steps=np.uint8(9))
+counts: list[int | None] = [output.frames, time.max_steps, cf.Circle(1.0, turning_number=np.int64(1)).turning_number]
+nodes: int | str = accuracy.nodes
+assert isinstance(nodes, int) and all(isinstance(count, int) for count in counts)
 """
 
 

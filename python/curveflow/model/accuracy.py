@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from .schema import default
-from .table import Table
+from .table import CountOrAuto, Table
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -15,7 +15,7 @@ class Accuracy(Table):
 
     tolerance: float = default("accuracy", "tolerance")
     """The relative error asked for, in time and in space together: in [1e-11, 1e-1]."""
-    nodes: int | Literal["auto"] = default("accuracy", "nodes")
+    nodes: CountOrAuto = default("accuracy", "nodes")
     """Number of nodes on the curve, 8 to 65536, or ``auto``: as many as the tolerance needs,
     while the run goes on (THEORY.md, D12)."""
     derivative: Literal["auto", "fourier", "central-2", "central-4", "central-6", "central-8"] = default(

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import ClassVar, TypeAlias
 
 from .schema import default
-from .table import Formula, Numbers, Rows, Table
+from .table import Count, Formula, Numbers, Rows, Table
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,7 +22,7 @@ class Circle(Table):
 
     radius: float
     """Radius > 0."""
-    turning_number: int = default("curve", "turning_number", "circle")
+    turning_number: Count = default("curve", "turning_number", "circle")
     """1."""
 
 
@@ -34,7 +34,7 @@ class Ellipse(Table):
 
     semi_axes: Numbers
     """Semi-axes along x and y, both > 0."""
-    turning_number: int = default("curve", "turning_number", "ellipse")
+    turning_number: Count = default("curve", "turning_number", "ellipse")
     """1."""
 
 
@@ -44,7 +44,7 @@ class Trillium(Table):
 
     shape: ClassVar[str] = "trillium"
 
-    turning_number: int = default("curve", "turning_number", "trillium")
+    turning_number: Count = default("curve", "turning_number", "trillium")
     """1."""
 
 
@@ -56,7 +56,7 @@ class Polar(Table):
 
     r: Formula
     """Radius, an expression of ``phi``."""
-    turning_number: int = default("curve", "turning_number", "polar")
+    turning_number: Count = default("curve", "turning_number", "polar")
     """0 to 16."""
 
 
@@ -70,7 +70,7 @@ class Parametric(Table):
     """First coordinate, an expression of ``phi``."""
     y: Formula
     """Second coordinate, an expression of ``phi``."""
-    turning_number: int = default("curve", "turning_number", "parametric")
+    turning_number: Count = default("curve", "turning_number", "parametric")
     """0 to 16."""
 
 
@@ -84,7 +84,7 @@ class Points(Table):
     """The points in order, shape (n, 2), n from 8 to 16384, and perhaps the first again; or else ``file``."""
     file: str | os.PathLike[str] | None = None
     """File of the points, one on each line, x and y. A checked scene holds the points themselves."""
-    turning_number: int = default("curve", "turning_number", "points")
+    turning_number: Count = default("curve", "turning_number", "points")
     """0 to 16."""
 
     def __repr__(self) -> str:
@@ -100,7 +100,7 @@ class FigureEight(Table):
 
     size: float = default("curve", "size", "figure-eight")
     """Half its width, > 0."""
-    turning_number: int = default("curve", "turning_number", "figure-eight")
+    turning_number: Count = default("curve", "turning_number", "figure-eight")
     """0."""
 
 

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from typing import Literal
 
 from .schema import default
-from .table import Numbers, Table
+from .table import ABSENT, CountOrNone, Numbers, Table
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Output(Table):
     """The frames of the result: ``frames`` with ``spacing``, or ``times``. First and last state are always saved."""
 
-    frames: int | None = None
+    frames: CountOrNone = ABSENT
     """Number of frames over the whole run, at least 1; has its default unless ``times`` are given."""
     spacing: Literal["linear", "log"] | None = None
     """``linear``: at equal distances of time; ``log``: at equal ratios, so that early changes are seen too."""

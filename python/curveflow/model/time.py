@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .schema import default
-from .table import Table
+from .table import ABSENT, CountOrNone, Table
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,5 +20,5 @@ class Time(Table):
     equilibrium_tolerance: float | None = None
     """At rest means: the energy still to be lost is at most this fraction of the energy. In (0, 1e-2]; a hundredth of
     the accuracy's tolerance unless given, a tenth with co-moving nodes."""
-    max_steps: int | None = None
+    max_steps: CountOrNone = ABSENT
     """Accepted steps after which the run stops, at least 1; unlimited unless given."""
