@@ -61,6 +61,20 @@ fn numbers_may_be_written_as_calculators_write_them() {
 }
 
 #[test]
+fn names_that_are_numbers_elsewhere_need_no_quotes() {
+    let text = format!(
+        "{CIRCLE}\nenergy.membrane = {{ density = 'a', epsilon = 0.1 }}
+        density = [{{ name = 'a', initial = 1.0, mobility = 'diffusion' }}]"
+    );
+    for name in ["nan", "inf", "true", "'nan'"] {
+        let set = [("density.a.name", name), ("energy.membrane.density", name)];
+        let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
+        let scene = Scene::parse_with(&text, "circle.toml", &set).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(scene.density[0].name, name.trim_matches('\''));
+    }
+}
+
+#[test]
 fn changes_that_make_no_scene_are_refused_at_their_keys() {
     for count in [0, 1, 1 << 40, usize::MAX] {
         assert_eq!(refused_at(|scene| scene.accuracy.nodes = Nodes::Count(count)), ["accuracy.nodes"]);

@@ -58,8 +58,7 @@ fn position(densities: &DeArray<'_>, name: &str) -> Option<usize> {
 /// Writes the values into the document; keys that lead nowhere are reported.
 pub(super) fn apply<'i>(document: &mut DeTable<'i>, overrides: &'i [Override<'i>], report: &Report<'_>) {
     for change in overrides {
-        // A title is text, also where it looks like a number.
-        let value = if change.path == "title" { title(change.value) } else { value(&change.toml) };
+        let value = if is_of_text(&change.path) { text(change.value) } else { value(&change.toml) };
         if let Err((reason, remedy)) = set(document, &change.path, value) {
             report.add(&change.path, &(0..0), Fault::NoSuchPlace { reason, remedy });
         }
@@ -73,8 +72,14 @@ fn value(text: &str) -> Option<DeValue<'_>> {
     (!text.is_empty()).then(parsed)
 }
 
+/// Whether the key at `path` holds nothing but text, also where that looks like a number: `nan` may be the name of a density.
+fn is_of_text(path: &str) -> bool {
+    let segments: Vec<&str> = path.split('.').collect();
+    matches!(segments[..], ["title"] | ["density", _, "name"] | ["energy", _, "density"] | ["curve", "file"])
+}
+
 /// The text, without quotes if it has some; a number or a date is the text that it was written as.
-fn title(text: &str) -> Option<DeValue<'_>> {
+fn text(text: &str) -> Option<DeValue<'_>> {
     let is_kept = |value: &DeValue<'_>| value.is_str() || value.is_array() || value.is_table();
     value(text).map(|value| if is_kept(&value) { value } else { DeValue::String(Cow::Borrowed(text)) })
 }
@@ -160,4 +165,39 @@ fn element<'t, 'i>(
         (reason, "count from 0, or give the name of a density of the scene")
     };
     found.map(Spanned::get_mut).ok_or_else(missing)
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::Value;
+
+    use super::*;
+    use crate::run::Scene;
+
+    /// Paths of the keys of `schema`, and whether each is a text and neither a formula nor one of some names.
+    fn keys(schema: &Value, path: &str, out: &mut Vec<(String, bool)>) {
+        let inner = |key: &str| if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
+        for (key, value) in schema["properties"].as_object().into_iter().flatten() {
+            let is_free = value.get("enum").or(value.get("const")).is_none();
+            let of_text = |kind: &Value| *kind == "string" || *kind == serde_json::json!(["string", "null"]);
+            out.push((inner(key), is_free && of_text(&value["type"])));
+            keys(value, &inner(key), out);
+        }
+        for alternative in schema["anyOf"].as_array().into_iter().flatten() {
+            keys(alternative, path, out);
+        }
+        if schema["items"].is_object() {
+            keys(&schema["items"], &inner("0"), out);
+        }
+    }
+
+    #[test]
+    fn the_keys_of_text_are_those_of_the_schema() {
+        let mut found = Vec::new();
+        keys(&Scene::schema(), "", &mut found);
+        assert!(found.iter().filter(|(_, is_text)| *is_text).count() >= 6, "{found:?}");
+        for (path, is_text) in found {
+            assert_eq!(is_of_text(&path), is_text, "{path}");
+        }
+    }
 }
