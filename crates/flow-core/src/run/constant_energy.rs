@@ -80,6 +80,9 @@ fn of_tangent(
         let densities = densities.iter().map(|density| of_densities * density.mean);
         let base: Vec<f64> = std::iter::once(of_curvature * curvature.mean).chain(densities).collect();
         let (value, slopes) = plane(&base);
+        if !value.is_finite() {
+            return None; // there are no such states, whether the value is needed or not
+        }
         let of_length = length.map(|length| value * length);
         let of_fields = integrals.iter().zip(&base).zip(slopes).filter_map(|((integral, base), slope)| {
             let excess = integral.kept? - base * length.unwrap_or(0.0);
