@@ -63,14 +63,17 @@ struct Integral {
     kept: Option<f64>,
 }
 
+/// The value of a density of the energy at some fields, and its slope along each.
+type Plane = (f64, Vec<f64>);
+
 /// What a tangent plane of a density of the energy adds up to along the curve, as far as its integrals are kept: the `length`, that of 1,
-/// and those of fields. `plane` gives the value and the slope along each field at values of the fields, the curvature first.
+/// and those of fields. `plane` is that at values of the fields, the curvature first.
 ///
 /// Any plane will do, but the nearer its base is to the state, the less it leaves. That at fields that are zero leaves all of κ²/2, and of
 /// (ρ − 1)² what varies. Where there is none (a ln a), densities are half their means, which leaves of each cost its natural size also
 /// where they hardly vary; and so on as [`BASES`] says.
 fn of_tangent(
-    plane: &dyn Fn(&[f64]) -> (f64, Vec<f64>),
+    plane: &dyn Fn(&[f64]) -> Plane,
     length: Option<f64>,
     curvature: Integral,
     densities: &[Integral],
@@ -95,7 +98,7 @@ fn of_tangent(
 }
 
 /// The tangent plane of (b/2)(κ − c₀(ρ))² at the curvature and the density on which c₀ depends, if it does.
-fn bending_plane(bending: &Bending, fields: &[f64]) -> (f64, Vec<f64>) {
+fn bending_plane(bending: &Bending, fields: &[f64]) -> Plane {
     let preferred = bending.preferred_curvature.as_ref().map(Formula::expression);
     let at = |c: &Expression| c.evaluate(&[fields.get(1).copied().unwrap_or(0.0)]);
     let excess = fields[0] - preferred.map_or(0.0, at);
@@ -106,7 +109,7 @@ fn bending_plane(bending: &Bending, fields: &[f64]) -> (f64, Vec<f64>) {
 }
 
 /// The tangent plane of a local density at fields without slopes; its variables are each field and its slope.
-fn local_plane(local: &Local, fields: &[f64]) -> (f64, Vec<f64>) {
+fn local_plane(local: &Local, fields: &[f64]) -> Plane {
     let e = local.expression.expression();
     let point: Vec<f64> = fields.iter().flat_map(|field| [*field, 0.0]).collect();
     let slope = |field| {
