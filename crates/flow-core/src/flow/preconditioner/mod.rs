@@ -123,8 +123,8 @@ impl Preconditioner {
         match &mut self.inverse {
             FieldInverse::Fourier(symbol) => symbol.set(flow, gamma, 0),
             FieldInverse::Banded(banded, symbol) => {
-                symbol.set(flow, gamma, banded.modes());
                 banded.factorise(flow, gamma)?;
+                symbol.set(flow, gamma, banded.modes());
             }
             FieldInverse::Dense(dense) => dense.factorise(flow, gamma)?,
         }

@@ -1,6 +1,7 @@
 //! Banded approximate inverses of I − γJ: [`local`] for nodes at fixed fractions of the length, [`material`] for nodes that move
 //! with the curve. See `THEORY.md`, eqs. (O2) and (O9).
 
+mod all_modes;
 mod coefficients;
 mod compact_laplacian;
 mod local;
@@ -11,6 +12,7 @@ mod window;
 
 use std::fmt::Debug;
 
+use all_modes::AllModes;
 use coefficients::Coefficients;
 use local::LocalPart;
 use material::MaterialPart;
@@ -32,13 +34,22 @@ pub trait Banded: Debug + Send + Sync {
     fn apply(&mut self, spectra: &mut [Complex64]);
 }
 
-/// Builds the solver for the number of fields, up to four, of all modes if it is to hold the `whole` flow; none for more fields, and
-/// none on a handful of nodes.
-pub fn build(flow: &GradientFlow, whole: bool) -> Option<Box<dyn Banded>> {
+/// Builds the solver for the number of fields, up to four, and for all modes if it `holds_all`; none for more fields, and none on a
+/// handful of nodes.
+pub fn build(flow: &GradientFlow, holds_all: bool) -> Option<Box<dyn Banded>> {
+    let low = on_nodes(flow, most_at_first(flow));
+    if !holds_all || !leaves_modes(flow) {
+        return low;
+    }
+    let both = low.zip(on_nodes(flow, usize::MAX));
+    both.map(|(low, all)| Box::new(AllModes::new(low, all)) as Box<dyn Banded>)
+}
+
+/// That on at most `most` equidistant nodes.
+fn on_nodes(flow: &GradientFlow, most: usize) -> Option<Box<dyn Banded>> {
     if !exists(flow) {
         return None;
     }
-    let most = if whole { usize::MAX } else { most_at_first(flow) };
     match (flow.layout().fields(), diffuses(flow)) {
         (1, false) => Some(of_fields::<1, 3>(flow, most)),
         (2, false) => Some(of_fields::<2, 7>(flow, most)),

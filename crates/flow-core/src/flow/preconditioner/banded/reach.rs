@@ -5,7 +5,7 @@ use crate::flow::gradient_flow::GradientFlow;
 /// Graded and co-moving nodes are crowded somewhere: fewer of them would miss what they crowd for.
 pub const MOST_UNEQUAL_NODES: usize = 8192;
 /// Of the highest modes, equidistant nodes need a band only where the coefficients vary much, by ten and more; else the symbol serves, at
-/// less cost. Sixth-order bands become inaccurate from 16384 nodes on.
+/// less cost.
 const MOST_AT_FIRST: usize = 1024;
 const MOST_AT_FIRST_OF_SURFACE_DIFFUSION: usize = 384;
 /// F fields have a band of half-width 4F − 1, which needs three times as many rows: 12 nodes for any F. With surface diffusion it is
