@@ -248,36 +248,3 @@ fn energies_of_what_is_kept_cost_no_steps() {
         }
     }
 }
-
-/// Bending pushes at a circle of kept length and area, or nearly a circle, unevenly, by a density that decays: the curve cannot go anywhere, or hardly.
-/// A circle took 10,468 steps at 1e-5, where it moved to and fro within the rounding of its area.
-#[test]
-fn circles_of_kept_length_and_area_cost_no_steps() {
-    for (axis, tolerances) in [
-        (1.01, ["1e-3", "1e-5", "1e-6"]),
-        (1.010_000_001, ["1e-3", "1e-5", "1e-6"]),
-        (1.010_01, ["1e-4", "1e-5", "1e-6"]),
-        (1.0101, ["1e-3", "1e-5", "1e-6"]),
-    ] {
-        let mut reference = None;
-        for tolerance in tolerances.into_iter().rev() {
-            let record = run(&scene(&format!(
-                "
-                curve = {{ shape = 'ellipse', semi_axes = [1.01, {axis:?}] }}
-                density = [{{ name = 'a', initial = '0.6354 + 0.051*cos(8*pi*s)', mobility = 'exchange' }}]
-                energy.local.expression = '0.297*a^2 + 0.0318*a_sigma^2'
-                energy.bending.rigidity = 1.43
-                energy.length = {{ penalty = 30.8, target_ratio = 1.28 }}
-                flow.normal_mobility = 'incompressible-area-preserving'
-                time = {{ end = 1.384, max_steps = 1000, stop_at_equilibrium = false }}
-                accuracy.tolerance = {tolerance}
-                "
-            )));
-            let steps = record.counters.steps;
-            println!("{axis} at {tolerance}: {steps} steps, energy {:?}", last(&record).energy);
-            assert_eq!(record.stop_reason, StopReason::EndTime, "{axis} at {tolerance}");
-            assert!(steps < 80, "{axis} at {tolerance}: {steps} steps");
-            assert_close(last(&record).energy, *reference.get_or_insert(last(&record).energy), 1e-4);
-        }
-    }
-}

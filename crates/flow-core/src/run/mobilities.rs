@@ -9,8 +9,9 @@ use crate::flow::{
 use crate::geometry::PeriodicGrid;
 use crate::operators::Derivative;
 
-/// Part of the tolerance that counts as no deviation from a circle where length and area are kept: such a curve can move by twice that.
-const ROUND: f64 = 0.25;
+/// Part of the tolerance that counts as no deviation from a circle where length and area are kept: such a curve can move by twice that, or,
+/// pushed by forces of high modes, by ten times as much.
+const ROUND: f64 = 0.05;
 
 /// The normal mobility of a scene.
 pub fn normal_mobility(

@@ -1,5 +1,7 @@
 //! Local length and area held: 𝓑 = 𝓘 − 𝓘1 ⟨𝓘1, ·⟩/⟨𝓘1, 1⟩. See `THEORY.md`, eq. (F10).
 
+use std::f64::consts::TAU;
+
 use super::{Incompressible, Kept, MobilityError, NormalMobility};
 use crate::flow::CurveFields;
 use crate::operators::Derivative;
@@ -8,8 +10,8 @@ use crate::operators::Derivative;
 const ROUND: f64 = 1e-12;
 
 /// Every piece of the curve keeps its length, and the area is held: V = 𝓘f − (⟨𝓘f, 1⟩/⟨𝓘1, 1⟩) 𝓘1 with 𝓘 of
-/// [`Incompressible`](super::Incompressible). See `THEORY.md`, eq. (F10). On a circle 𝓘1 = 0, and 𝓑 = 0: of all curves of its length that
-/// one alone has its area.
+/// [`Incompressible`](super::Incompressible). See `THEORY.md`, eq. (F10). On a circle 𝓘1 = 0; on one that is run through once 𝓑 = 0 too: of
+/// all curves of its length that one alone has its area.
 #[derive(Clone, Debug)]
 pub struct IncompressibleAreaPreserving {
     incompressible: Incompressible,
@@ -20,8 +22,10 @@ pub struct IncompressibleAreaPreserving {
     less: Vec<f64>,
     /// 1/⟨𝓘1, 1⟩, or 0 on a circle.
     inverse: f64,
-    /// ⟨𝓘1, 1⟩ up to which the curve counts as a circle.
+    /// ⟨𝓘1, 1⟩ up to which a curve that is run through once counts as a circle, which is held.
     round: f64,
+    /// Whether it does.
+    holds: bool,
 }
 
 impl IncompressibleAreaPreserving {
@@ -36,6 +40,7 @@ impl IncompressibleAreaPreserving {
             less: vec![0.0; nodes],
             inverse: 0.0,
             round: ROUND * ROUND,
+            holds: false,
         }
     }
 
@@ -49,10 +54,6 @@ impl IncompressibleAreaPreserving {
         self.round = deviation.max(ROUND).powi(2);
         self
     }
-
-    fn is_circle(&self) -> bool {
-        self.inverse == 0.0
-    }
 }
 
 impl NormalMobility for IncompressibleAreaPreserving {
@@ -62,12 +63,17 @@ impl NormalMobility for IncompressibleAreaPreserving {
         self.incompressible.project(at, &mut self.one);
         self.incompressible.apply(at, &self.one, &mut self.image);
         let square = at.mean_of_product(&self.image, &self.one);
-        self.inverse = if square > self.round { 1.0 / square } else { 0.0 };
+        // One that is run through more often has the area of other curves of its length as well.
+        let turning_number = at.length() * at.mean(at.at_nodes(0)) / TAU;
+        let once = (turning_number.abs() - 1.0).abs() < 0.5;
+        let round = if once { self.round } else { ROUND * ROUND };
+        self.inverse = if square > round { 1.0 / square } else { 0.0 };
+        self.holds = once && self.inverse == 0.0;
         Ok(())
     }
 
     fn apply(&mut self, at: &CurveFields, force: &[f64], velocity: &mut [f64]) {
-        if self.is_circle() {
+        if self.holds {
             velocity.fill(0.0);
             return;
         }
@@ -91,7 +97,7 @@ impl NormalMobility for IncompressibleAreaPreserving {
     }
 
     fn symbol(&self, wave_square: f64) -> f64 {
-        if self.is_circle() { 0.0 } else { self.incompressible.symbol(wave_square) }
+        if self.holds { 0.0 } else { self.incompressible.symbol(wave_square) }
     }
 
     fn keeps(&self) -> Kept {

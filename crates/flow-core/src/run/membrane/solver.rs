@@ -47,7 +47,7 @@ impl Solver {
         *mean += WEIGHT * (iterations as f64 - *mean);
         let serves = if *kind == LinearSolver::Auto { FOURIER_SERVES } else { BAND_SERVES };
         let Some(next) = Preconditioner::after(*kind, flow).filter(|_| *mean > serves) else { return false };
-        *kind = next;
+        (*kind, *mean) = (next, 0.0); // what the one before took says nothing of this one
         self.built = None;
         true
     }
