@@ -6,8 +6,8 @@ use super::{Incompressible, Kept, MobilityError, NormalMobility};
 use crate::flow::CurveFields;
 use crate::operators::Derivative;
 
-/// Root mean square of the part of 1 off κ below which the curve is a circle to rounding: 1 is in the kernel of 𝓘.
-const ROUND: f64 = 1e-12;
+/// Mean square of the part of 1 off κ below which the curve is a circle to rounding: 1 is in the kernel of 𝓘.
+const ROUND: f64 = 1e-24;
 
 /// Every piece of the curve keeps its length, and the area is held: V = 𝓘f − (⟨𝓘f, 1⟩/⟨𝓘1, 1⟩) 𝓘1 with 𝓘 of
 /// [`Incompressible`](super::Incompressible). See `THEORY.md`, eq. (F10). On a circle 𝓘1 = 0; on one that is run through once 𝓑 = 0 too: of
@@ -39,7 +39,7 @@ impl IncompressibleAreaPreserving {
             image: vec![0.0; nodes],
             less: vec![0.0; nodes],
             inverse: 0.0,
-            round: ROUND * ROUND,
+            round: ROUND,
             holds: false,
         }
     }
@@ -51,7 +51,7 @@ impl IncompressibleAreaPreserving {
     /// smaller it is: where that is less than errors of the steps, they could but jump to and fro on it.
     #[must_use]
     pub fn holding_circles(mut self, deviation: f64) -> Self {
-        self.round = deviation.max(ROUND).powi(2);
+        self.round = deviation.powi(2).max(ROUND);
         self
     }
 }
@@ -66,7 +66,7 @@ impl NormalMobility for IncompressibleAreaPreserving {
         // One that is run through more often has the area of other curves of its length as well.
         let turning_number = at.length() * at.mean(at.at_nodes(0)) / TAU;
         let once = (turning_number.abs() - 1.0).abs() < 0.5;
-        let round = if once { self.round } else { ROUND * ROUND };
+        let round = if once { self.round } else { ROUND };
         self.inverse = if square > round { 1.0 / square } else { 0.0 };
         self.holds = once && self.inverse == 0.0;
         Ok(())

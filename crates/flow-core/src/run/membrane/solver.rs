@@ -46,7 +46,10 @@ impl Solver {
         let Choice { kind, mean_iterations: mean } = &mut self.choice;
         *mean += WEIGHT * (iterations as f64 - *mean);
         let serves = if *kind == LinearSolver::Auto { FOURIER_SERVES } else { BAND_SERVES };
-        let Some(next) = Preconditioner::after(*kind, flow).filter(|_| *mean > serves) else { return false };
+        if *mean <= serves {
+            return false;
+        }
+        let Some(next) = Preconditioner::after(*kind, flow) else { return false };
         (*kind, *mean) = (next, 0.0); // what the one before took says nothing of this one
         self.built = None;
         true

@@ -13,15 +13,14 @@ const MOST_CONDITION: f64 = 1e12;
 /// Two bands, of which one serves at each factorisation: that of all modes, and where it would be ill-conditioned that of the low ones.
 #[derive(Debug)]
 pub struct AllModes {
-    low: Box<dyn Banded>,
-    all: Box<dyn Banded>,
-    serves_all: bool,
+    bands: [Box<dyn Banded>; 2],
+    serving: usize,
 }
 
 impl AllModes {
     /// Of a band of the `low` modes and one of `all`.
     pub fn new(low: Box<dyn Banded>, all: Box<dyn Banded>) -> Self {
-        Self { low, all, serves_all: false }
+        Self { bands: [low, all], serving: 0 }
     }
 }
 
@@ -34,17 +33,15 @@ fn condition(flow: &GradientFlow, gamma: f64) -> f64 {
 
 impl Banded for AllModes {
     fn modes(&self) -> usize {
-        if self.serves_all { self.all.modes() } else { self.low.modes() }
+        self.bands[self.serving].modes()
     }
 
     fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> Result<(), FactorisationError> {
-        self.serves_all = condition(flow, gamma) < MOST_CONDITION;
-        let band = if self.serves_all { &mut self.all } else { &mut self.low };
-        band.factorise(flow, gamma)
+        self.serving = usize::from(condition(flow, gamma) < MOST_CONDITION);
+        self.bands[self.serving].factorise(flow, gamma)
     }
 
     fn apply(&mut self, spectra: &mut [Complex64]) {
-        let band = if self.serves_all { &mut self.all } else { &mut self.low };
-        band.apply(spectra);
+        self.bands[self.serving].apply(spectra);
     }
 }
