@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use flow_core::run::scene::OutputField;
-use flow_core::run::{Frame, Quiet, Record, Scene, SetupError, run};
+use flow_core::run::{Frame, Quiet, Record, Scene, SetupError, evaluate, run};
 
 const ALL: &str = "output = { frames = 2, fields = ['normal-force', 'tangential-velocity', 'excess-density', \
                    'membrane-flux', 'energy-density', 'energy-densities', 'normal-velocities', 'normal-force'] }";
@@ -52,6 +52,31 @@ fn a_circle_has_the_fields_of_a_circle() {
         assert_all(at(OutputField::ExcessDensity), -0.5 / (radius * radius), 1e-6);
         assert_all(at(OutputField::MembraneFlux), 0.0, 1e-6);
         assert_all(at(OutputField::EnergyDensity), 0.5 / (radius * radius), 1e-6);
+    }
+}
+
+/// A pressure p is the force p, also where it moves nothing.
+#[test]
+fn the_pressure_on_an_area_that_is_kept_is_in_the_force() {
+    for mobility in ["identity", "area-preserving", "incompressible-area-preserving", "surface-diffusion"] {
+        let text = format!(
+            "
+            curve = {{ shape = 'ellipse', semi_axes = [1.3, 1.0] }}
+            energy = {{ bending.rigidity = 1.0, area.pressure = 7.0 }}
+            flow.normal_mobility = '{mobility}'
+            time.end = 1e-3
+            accuracy.nodes = 64
+            output = {{ frames = 2, fields = ['normal-force'] }}
+            "
+        );
+        let scene = Scene::parse(&text, "test.toml").unwrap();
+        for frame in &record(&text).frames {
+            let expected = evaluate(&scene, &frame.curvature, &frame.metric, &[]).unwrap();
+            for (force, expected) in frame.fields[0].iter().zip(&expected.normal_force) {
+                assert!((force - expected).abs() < 1e-9, "{mobility}: {force}, not {expected}");
+            }
+            assert!((frame.energy - expected.energy).abs() < 1e-9, "{mobility}");
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use flow_core::run::{Prediction, Scene};
 
-/// A sentence on each term whose derivative the normal mobility takes to zero: a constant, for which steps are shorter all the same.
+/// A sentence on each term whose derivative the normal mobility takes to zero: a constant, whose rounding is all that it can do.
 pub fn warnings(prediction: &Prediction, scene: &Scene) -> Vec<String> {
     let idle = [
         ("length", prediction.kept.length && scene.energy.length.is_some()),

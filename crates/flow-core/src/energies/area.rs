@@ -60,6 +60,10 @@ impl EnergyTerm for Area {
         true
     }
 
+    fn is_of_area(&self) -> bool {
+        true
+    }
+
     fn add_shape_energy(&mut self, shape: &ShapeFields, _: Order, out: &mut ShapeFields) -> f64 {
         let area = area(shape);
         let [value, first, _] = self.of_area(area);

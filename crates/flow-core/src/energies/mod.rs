@@ -134,6 +134,11 @@ pub trait EnergyTerm: Debug + Send + Sync {
         false
     }
 
+    /// Whether the term is a function of the enclosed area, and of nothing else: no force then where the flow keeps that.
+    fn is_of_area(&self) -> bool {
+        false
+    }
+
     /// Largest distance of nodes on which the sums of [`EnergyTerm::add_shape_energy`] on a curve of length `length` are off by the
     /// part `error` at most; infinite if they do not ask for any.
     fn largest_spacing(&self, _length: f64, _error: f64) -> f64 {

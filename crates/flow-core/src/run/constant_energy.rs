@@ -22,18 +22,16 @@ pub(super) fn energy_scale(scene: &Scene, record: &Record) -> EnergyScale {
 fn constant_energy(scene: &Scene, record: &Record, first: &Frame) -> f64 {
     let energy = &scene.energy;
     let bending = energy.bending.as_ref().filter(|bending| bending.preferred_curvature.is_some());
-    if energy.length.is_none() && energy.local.is_none() && bending.is_none() {
+    if energy.length.is_none() && energy.area.is_none() && energy.local.is_none() && bending.is_none() {
         return 0.0;
     }
     let Some((kept, masses)) = kept(scene) else { return 0.0 };
-    // That of an area which is kept is none of these: steps keep it only up to their error, until it is put back, and what it costs
-    // shows in the dissipation of each.
-    let costs_length = energy.length.is_some() && kept.length;
     let cost = |name: &str| {
         let terms = record.energy_terms.iter().zip(&first.energy_terms);
         terms.filter(|(known, _)| *known == name).map(|(_, value)| value).sum::<f64>()
     };
-    let of_length = if costs_length { cost("length") } else { 0.0 };
+    let of_length = if energy.length.is_some() && kept.length { cost("length") } else { 0.0 };
+    let of_area = if energy.area.is_some() && kept.area { cost("area") } else { 0.0 };
     let length = kept.length.then_some(first.length);
     let turning = mean_of_product(&first.curvature, &first.metric);
     let curvature = Integral { mean: turning / first.length, kept: Some(turning) };
@@ -49,7 +47,7 @@ fn constant_energy(scene: &Scene, record: &Record, first: &Frame) -> f64 {
     let of_local = energy.local.as_ref().map_or(0.0, |local| {
         of_tangent(&|fields| local_plane(local, fields), cost("local"), length, curvature, &densities)
     });
-    of_length + of_bending + of_local
+    of_length + of_area + of_bending + of_local
 }
 
 /// Where tangent planes are looked for, the first that exists being taken: parts of the means of the curvature and of the densities.
@@ -206,7 +204,9 @@ mod tests {
     }
 
     #[test]
-    fn the_cost_of_an_area_is_none_also_where_that_is_kept() {
-        assert_eq!(constant_of("bending.rigidity = 1.0, area.pressure = 2.0", "area-preserving"), 0.0);
+    fn so_is_the_cost_of_an_area_that_is_kept() {
+        let energy = "bending.rigidity = 1.0, area.pressure = 2.0";
+        assert!((constant_of(energy, "area-preserving") + TAU).abs() < 1e-12);
+        assert_eq!(constant_of(energy, "identity"), 0.0);
     }
 }

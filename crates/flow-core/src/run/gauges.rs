@@ -101,7 +101,8 @@ impl Gauges {
         grading: Option<Arc<Grading>>,
         turning_number: i32,
     ) -> Result<(Membrane, Diagnostics), SetupError> {
-        let (flow, diagnostics) = assembly::flow(&self.scene, &self.initial, nodes, grading)?;
+        let (mut flow, diagnostics) = assembly::flow(&self.scene, &self.initial, nodes, grading)?;
+        flow.set_kept_area_idle(true);
         let solver = linear_solver(self.scene.accuracy.linear_solver);
         Ok((Membrane::new(flow, solver, turning_number, 0.0), diagnostics))
     }

@@ -76,7 +76,7 @@ impl TermParts {
     }
 }
 
-/// The flow of one term.
+/// The flow of one term, as it is in a run.
 fn flow_of(
     scene: &Scene,
     term: Box<dyn EnergyTerm>,
@@ -88,5 +88,7 @@ fn flow_of(
     let map = FlowMap::in_gauge(scene.flow.gauge.rule(), layout, &grid, derivative);
     let normal = normal_mobility(scene, &grid, derivative);
     let densities = (0..layout.densities()).map(|_| Box::new(Carried) as _).collect();
-    GradientFlow::new(map, energy, layout, normal, densities)
+    let mut flow = GradientFlow::new(map, energy, layout, normal, densities);
+    flow.set_kept_area_idle(true);
+    flow
 }

@@ -24,6 +24,16 @@ impl EnergySum {
         self.terms.iter().map(|term| term.largest_spacing(length, error)).fold(f64::INFINITY, f64::min)
     }
 
+    /// Takes what the area costs for a constant from now on, or no longer: it counts in energies and has no derivatives.
+    /// Returns whether there is such a term.
+    pub fn set_area_idle(&mut self, idle: bool) -> bool {
+        let costs = self.terms.iter().any(|term| term.is_of_area());
+        if let Some(shape) = self.shape.as_mut().filter(|_| costs) {
+            shape.set_area_idle(idle);
+        }
+        costs
+    }
+
     /// Whether something holds the length: a penalty on it, or an energy of positions.
     #[must_use]
     pub fn holds_length(&self, length: f64) -> bool {

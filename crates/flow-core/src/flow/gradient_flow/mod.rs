@@ -122,6 +122,13 @@ impl GradientFlow {
         }
     }
 
+    /// Leaves out the force of what an area costs that the flow keeps (F21), or no longer. It moves nothing; left in, its rounding, and what
+    /// steps of finite length change of the area, are as dear as the area is.
+    /// Returns whether there was any.
+    pub fn set_kept_area_idle(&mut self, idle: bool) -> bool {
+        self.current.mobility.keeps().area && self.energy.set_area_idle(idle)
+    }
+
     /// Rate of `state` into `rate`, per time, both spectral ([`crate::geometry::SpectralLayout`]).
     ///
     /// # Panics

@@ -39,6 +39,8 @@ pub struct ShapeEnergy {
     metric: Option<usize>,
     /// The energy of what holds the area, at the linearisation.
     held: Option<Area>,
+    /// Takes the derivatives of functions of the area where these are left out.
+    idle: Option<ShapeFields>,
 }
 
 /// What the second derivative needs.
@@ -107,6 +109,7 @@ impl ShapeEnergy {
             frozen,
             metric: layout.metric(),
             held: None,
+            idle: None,
             angle: vec![0.0; nodes],
             values: vec![0.0; nodes],
             spectrum: vec![Complex64::default(); grid.modes()],
@@ -139,6 +142,11 @@ impl ShapeEnergy {
         self.shape.length = length;
     }
 
+    /// Takes what the area costs for a constant from now on, or no longer: it counts in energies and has no derivatives.
+    pub fn set_area_idle(&mut self, idle: bool) {
+        self.idle = idle.then(|| self.dual.clone());
+    }
+
     /// Adds to the gradient, by K and by the length at fixed K; returns the energy.
     pub fn add_gradient(
         &mut self,
@@ -151,7 +159,10 @@ impl ShapeEnergy {
         self.dual.clear();
         let (mut energy, mut of_lines) = (0.0, 0.0);
         for term in terms.iter_mut().filter(|term| term.has_shape_energy()) {
-            let value = term.add_shape_energy(&self.shape, order, &mut self.dual);
+            let value = match &mut self.idle {
+                Some(idle) if term.is_of_area() => term.add_shape_energy(&self.shape, Order::Value, idle),
+                _ => term.add_shape_energy(&self.shape, order, &mut self.dual),
+            };
             energy += value;
             of_lines += if term.is_line_energy() { value } else { 0.0 };
         }
@@ -208,7 +219,8 @@ impl ShapeEnergy {
         let length = self.frozen.shape.length;
         self.embed_motion(v);
         self.dual.clear();
-        for term in terms.iter_mut().filter(|term| term.has_shape_energy()) {
+        let is_idle = |term: &dyn EnergyTerm| self.idle.is_some() && term.is_of_area();
+        for term in terms.iter_mut().filter(|term| term.has_shape_energy() && !is_idle(&***term)) {
             term.add_shape_hessian_product(&self.frozen.shape, &self.motion, &mut self.dual);
         }
         if let Some(held) = &mut self.held {
