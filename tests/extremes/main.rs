@@ -34,6 +34,11 @@ fn penalties_on_the_length() {
 }
 
 #[test]
+fn penalties_on_the_area() {
+    check(&parameters::area_penalty());
+}
+
+#[test]
 fn compressibilities_of_a_membrane() {
     check(&parameters::membrane());
 }
@@ -90,6 +95,16 @@ fn a_stiff_penalty_holds_the_length_at_no_cost() {
         println!("{scene}: {soft_steps} and {stiff_steps} steps, {soft:.1e} and {stiff:.1e}");
         assert!(stiff <= 100.0 / 1e8, "{scene}: {stiff:.1e}");
         assert!(stiff_steps <= 2 * soft_steps, "{scene}: {stiff_steps} steps, {soft_steps} with β = 3");
+    }
+}
+
+/// A stiff penalty on the area is one direction that is stiff: steps do not become as short as its time.
+#[test]
+fn a_stiff_penalty_holds_the_area_at_little_cost() {
+    for case in parameters::area_penalty() {
+        let outcome = case.measure();
+        let few = if case.name.starts_with("identity") { 200 } else { 500 };
+        assert!(outcome.steps() <= few, "{}: {} steps", case.name, outcome.steps());
     }
 }
 

@@ -10,10 +10,11 @@ use std::process::ExitCode;
 use curveflow_tests::report::{Table, command};
 
 /// All tables, in the order of the document.
-const TABLES: [Table; 15] = [
+const TABLES: [Table; 16] = [
     ("epsilon", tables::epsilon),
     ("delta", tables::delta),
     ("penalty", tables::penalty),
+    ("area-penalty", tables::area_penalty),
     ("membrane", tables::membrane),
     ("nodes", tables::nodes),
     ("tolerance", tables::tolerance),

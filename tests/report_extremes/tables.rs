@@ -75,6 +75,10 @@ pub fn penalty() -> String {
     cases(&parameters::penalty())
 }
 
+pub fn area_penalty() -> String {
+    cases(&parameters::area_penalty())
+}
+
 pub fn membrane() -> String {
     cases(&parameters::membrane())
 }

@@ -71,6 +71,29 @@ pub fn penalty() -> Vec<Case> {
     cases
 }
 
+/// A curve of three lobes under bending and tension whose area is held by a penalty.
+const HELD_BY_A_PENALTY: &str = "
+    curve = { shape = 'polar', r = '1 + 0.25*cos(3*phi) + 0.1*sin(2*phi)' }
+    energy.bending.rigidity = 1.0
+    energy.length.tension = 0.3
+    energy.area.penalty = 1.0
+    energy.area.target_ratio = 1.0
+    time = { end = 1000.0, stop_at_equilibrium = true }
+    accuracy.tolerance = 1e-5
+    ";
+
+/// Penalty on the area up to 1e8, from the area on that it wants.
+#[must_use]
+pub fn area_penalty() -> Vec<Case> {
+    let at = |mobility: &str, beta: &&str| {
+        let changes = [("energy.area.penalty", *beta), ("flow.normal_mobility", mobility)];
+        let name = format!("{}, β = {beta}", mobility.trim_matches('"'));
+        Case::text(&name, HELD_BY_A_PENALTY, &changes, End::Equilibrium)
+    };
+    let of = |mobility| ["1e4", "1e6", "1e8"].iter().map(move |beta| at(mobility, beta));
+    of("\"identity\"").chain(of("\"incompressible\"")).collect()
+}
+
 /// Compressibility ε of a membrane density from 1 to 1e-6.
 #[must_use]
 pub fn membrane() -> Vec<Case> {

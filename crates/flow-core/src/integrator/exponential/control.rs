@@ -22,6 +22,10 @@ const STIFF: f64 = 0.4;
 const UNSTABLE: f64 = 2.0;
 /// What a step counts at most whose error would have let it grow farther than the stiffness.
 const MOST_LIMITED: u32 = 8;
+/// Contraction above which steps that the balance keeps from growing are limited by the stiffness of N, if the error would let them grow by …
+const UNBALANCED: f64 = 0.1;
+/// … this factor.
+const MUCH_LONGER: f64 = 4.0;
 /// What an attempt that is thrown away counts; a step that is not limited takes one away again.
 pub(super) const LIMITED: u32 = 2;
 /// Steps in which the clock is looked for; after them it is compared with others in every second one.
@@ -183,6 +187,9 @@ impl Exponential {
             // What the stiffness leaves in the stiffest modes takes the step out of balance before it shows in its error.
             let lost = free / best.growth.min(most_growth);
             self.stiffness.limited + (lost.powi(2) as u32).clamp(1, MOST_LIMITED)
+        } else if contraction > UNBALANCED && most_growth <= 1.0 && free > MUCH_LONGER {
+            // One stiff direction, as that of an area under a penalty, is out of balance long before the norm sees it.
+            self.stiffness.limited + LIMITED
         } else {
             self.stiffness.limited.saturating_sub(1)
         };
