@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::departure::Departure;
 use super::standstill::Standstill;
 use crate::integrator::{ENERGY_ROUNDING, StepReport};
 
@@ -26,7 +27,8 @@ const CREEP: f64 = 100.0;
 ///
 /// D counts as far as the energy falls by it: what solves leave in stiff modes dissipates, and moves nothing. Low down rounding makes the
 /// power a matter of chance, and some flows creep on: they stay at rest as long as the mean rate since then would not lose more either,
-/// which, over many steps, is as good as a doubling of time. What steps lose on nodes that follow the curve remaps may give back: see
+/// which, over many steps, is as good as a doubling of time; but not if what they lose has grown all the while, as near a saddle, and by
+/// going on so would come to more: see `Departure`. What steps lose on nodes that follow the curve remaps may give back: see
 /// `Standstill`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Equilibrium {
@@ -37,6 +39,7 @@ pub struct Equilibrium {
     /// Since when little is to come, and the energy lost since then.
     quiet: Option<(f64, f64)>,
     quiet_steps: u32,
+    departure: Departure,
     remapped: Standstill,
 }
 
@@ -51,6 +54,7 @@ impl Equilibrium {
             last: (0.0, dissipation),
             quiet: None,
             quiet_steps: 0,
+            departure: Departure::default(),
             remapped: Standstill::new(energy),
         }
     }
@@ -73,7 +77,8 @@ impl Equilibrium {
         if self.remapped.reached(step, bound) {
             return true;
         }
-        let creeps = |rate: f64| rate * (self.end - time) <= CREEP * bound;
+        let left = self.end - time;
+        let creeps = |rate: f64| rate * left <= CREEP * bound;
         let stands_still = self.quiet.as_mut().is_some_and(|(since, sum)| {
             *sum += lost;
             creeps((sum.max(0.0) + rounding) / (time - *since))
@@ -83,9 +88,18 @@ impl Equilibrium {
             return false;
         }
         self.quiet_steps = self.quiet_steps.saturating_add(1);
-        let (since, _) = *self.quiet.get_or_insert((time, 0.0));
-        self.quiet_steps >= STEPS && time >= 2.0 * since && creeps(dissipation)
-            || self.quiet_steps >= MANY_STEPS && stands_still
+        let Some((since, sum)) = self.quiet else {
+            (self.quiet, self.departure) = (Some((time, 0.0)), Departure::since(time));
+            return false;
+        };
+        self.departure.take(time, sum);
+        let rests = self.quiet_steps >= STEPS && time >= 2.0 * since && creeps(dissipation)
+            || self.quiet_steps >= MANY_STEPS && stands_still;
+        if rests && self.departure.to_come(left) > CREEP * bound {
+            (self.quiet, self.quiet_steps) = (None, 0);
+            return false;
+        }
+        rests
     }
 }
 
@@ -195,6 +209,26 @@ mod tests {
         let mut watch = Equilibrium::new(1e-3, 10.0, f64::MAX, 1.0);
         let (energy, dissipation) = (|t: f64| 10.0 - 3.0 * t.powf(0.25), |t: f64| 0.75 * t.powf(-0.75));
         assert_eq!(rest(&mut watch, (1e-12, 1.0, 2.5), energy, dissipation), None);
+    }
+
+    /// Near a saddle: what came with the data decays, then what the saddle does not hold grows.
+    #[test]
+    fn a_flow_that_leaves_a_saddle_is_not_at_rest() {
+        let rests = |amplitude: f64| {
+            let energy = |t: f64| 2.0 + (-2.0 * t).exp() - amplitude * (t / 14.0).exp();
+            let dissipation = |t: f64| 2.0 * (-2.0 * t).exp() + amplitude / 14.0 * (t / 14.0).exp();
+            let mut watch = Equilibrium::new(1e-7, energy(0.0), dissipation(0.0), 100.0);
+            (1..600).any(|step| {
+                let [last, time] = [step - 1, step].map(|step| f64::from(step) / 6.0);
+                let lost = energy(last) - energy(time);
+                watch.reached(
+                    &StepReport::taken(time, time - last, [energy(time), lost], dissipation(time)),
+                    2.0,
+                )
+            })
+        };
+        assert!(!rests(1e-6), "8e-4 of 2 are lost until the end");
+        assert!(rests(1e-9), "8e-7 of 2 are");
     }
 
     /// Steps that rounding keeps at a hundredth of the time in which anything happens would take as many as that to double it.

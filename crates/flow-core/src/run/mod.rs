@@ -5,6 +5,7 @@ mod assembly;
 mod choices;
 mod constant_energy;
 mod culprit;
+mod departure;
 mod diagnostics;
 mod energy_density;
 mod energy_terms;
