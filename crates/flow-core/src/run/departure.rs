@@ -10,7 +10,7 @@ const RATES: usize = 4;
 /// What a quiet flow has lost at some times, as many steps apart each.
 ///
 /// Near a saddle the dissipation goes through a minimum, and then grows exponentially: what is small now may be all that is to come.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Departure {
     /// Times, and the energy lost until then since the first.
     marks: Vec<(f64, f64)>,
@@ -21,10 +21,17 @@ pub struct Departure {
 }
 
 impl Departure {
-    /// Since `time`.
+    /// Without a mark: steps do not allocate.
     #[must_use]
-    pub fn since(time: f64) -> Self {
-        Self { marks: vec![(time, 0.0)], spacing: 1, since: 0 }
+    pub fn new() -> Self {
+        Self { marks: Vec::with_capacity(MOST_MARKS + 1), spacing: 1, since: 0 }
+    }
+
+    /// Begins anew at `time`.
+    pub fn begin(&mut self, time: f64) {
+        self.marks.clear();
+        self.marks.push((time, 0.0));
+        (self.spacing, self.since) = (1, 0);
     }
 
     /// Takes a step to `time`, until which `lost` has been lost in all.
@@ -48,18 +55,16 @@ impl Departure {
     /// What is lost in the time `left` if the losses go on to grow as they have all the while; 0 if they have not.
     #[must_use]
     pub fn to_come(&self, left: f64) -> f64 {
-        let rates = self.marks.windows(2).map(|pair| {
-            let [(start, before), (end, after)] = [pair[0], pair[1]];
-            (0.5 * (start + end), (after - before) / (end - start))
-        });
-        let rates: Vec<(f64, f64)> = rates.collect();
-        let grows = rates.len() >= RATES && rates.windows(2).all(|pair| pair[1].1 > pair[0].1);
-        let (Some(first), Some(last)) = (rates.first(), rates.last()) else { return 0.0 };
-        if !grows || first.1 <= 0.0 {
+        let rate = |pair: &[(f64, f64)]| (pair[1].1 - pair[0].1) / (pair[1].0 - pair[0].0);
+        let middle = |pair: &[(f64, f64)]| 0.5 * (pair[0].0 + pair[1].0);
+        let pairs = || self.marks.windows(2);
+        let (Some(first), Some(last)) = (pairs().next(), pairs().next_back()) else { return 0.0 };
+        let grows = pairs().map(rate).is_sorted_by(|before, after| before < after);
+        if !grows || pairs().len() < RATES || rate(first) <= 0.0 {
             return 0.0;
         }
-        let growth = (last.1 / first.1).ln() / (last.0 - first.0);
-        last.1 * (growth * left).exp_m1() / growth
+        let growth = (rate(last) / rate(first)).ln() / (middle(last) - middle(first));
+        rate(last) * (growth * left).exp_m1() / growth
     }
 }
 
@@ -69,7 +74,8 @@ mod tests {
 
     /// What a flow whose rate is `rate` at each of so many steps is thought to lose in a time of 10 more.
     fn to_come(steps: u32, rate: impl Fn(f64) -> f64) -> f64 {
-        let (mut departure, mut lost) = (Departure::since(0.0), 0.0);
+        let (mut departure, mut lost) = (Departure::new(), 0.0);
+        departure.begin(0.0);
         for step in 1..=steps {
             let time = f64::from(step);
             lost += rate(time - 0.5);

@@ -54,7 +54,7 @@ impl Equilibrium {
             last: (0.0, dissipation),
             quiet: None,
             quiet_steps: 0,
-            departure: Departure::default(),
+            departure: Departure::new(),
             remapped: Standstill::new(energy),
         }
     }
@@ -89,7 +89,8 @@ impl Equilibrium {
         }
         self.quiet_steps = self.quiet_steps.saturating_add(1);
         let Some((since, sum)) = self.quiet else {
-            (self.quiet, self.departure) = (Some((time, 0.0)), Departure::since(time));
+            self.quiet = Some((time, 0.0));
+            self.departure.begin(time);
             return false;
         };
         self.departure.take(time, sum);

@@ -19,11 +19,19 @@ impl GradientFlow {
     /// # Panics
     /// Before [`GradientFlow::spectral_linearise`].
     pub fn implicit_product(&mut self, v: &[f64], out: &mut [f64]) {
+        self.implicit_velocity(v);
+        self.descent.write_rates(&self.frozen.fields, out);
+    }
+
+    /// The normal velocity of that product, at [`GradientFlow::normal_velocity`], and the gradient that goes with it.
+    ///
+    /// # Panics
+    /// Before [`GradientFlow::spectral_linearise`].
+    pub(in crate::flow) fn implicit_velocity(&mut self, v: &[f64]) {
         self.spectral_hessian_product(v);
         self.descent.set_force(&self.frozen.fields);
         self.add_tension();
         self.drive_frozen();
-        self.descent.write_rates(&self.frozen.fields, out);
     }
 
     /// Velocity at the linearisation, in exchange for the force at hand.

@@ -73,6 +73,15 @@ impl GradientFlow {
         }
     }
 
+    /// Rates of the spectral state under the normal velocity alone, at the frozen state.
+    pub(in crate::flow) fn motion_of(&mut self, velocity: &[f64], rates: &mut [f64]) {
+        let layout = self.spectral_layout();
+        let spectra = layout.spectra_mut(rates);
+        let length_rate = self.descent.map.rates(&self.frozen.fields, velocity, spectra);
+        self.descent.map.grid_mut().make_real(spectra);
+        rates[layout.length_index()] = length_rate;
+    }
+
     /// Adds `factor` times the rate of the density `field` by the gradient at hand to the spectrum `rates`, at the frozen state.
     pub(in crate::flow) fn add_density_rate(&mut self, field: usize, factor: f64, rates: &mut [Complex64]) {
         let Descent { layout, density_mobilities, gradient, spectrum, .. } = &mut self.descent;

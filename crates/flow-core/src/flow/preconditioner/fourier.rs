@@ -42,9 +42,9 @@ pub fn diagonal_symbol(flow: &GradientFlow, field: usize, minus_laplacian: f64, 
 }
 
 impl FourierSymbol {
-    /// Room for the blocks.
+    /// Room for the blocks, of the normal velocity in place of the curvature or not.
     #[must_use]
-    pub fn new(layout: Layout, modes: usize) -> Self {
+    pub fn new(layout: Layout, modes: usize, of_velocity: bool) -> Self {
         let fields = layout.fields();
         Self {
             fields,
@@ -54,7 +54,7 @@ impl FourierSymbol {
             means: vec![0.0; fields * fields],
             block: vec![0.0; fields * fields],
             scratch: vec![Complex64::default(); fields],
-            of_velocity: layout.metric().is_some(),
+            of_velocity,
             bend: vec![1.0; modes],
         }
     }

@@ -15,6 +15,7 @@ pub struct LengthCoupling {
     layout: SpectralLayout,
     /// Index of |Γ|: its own, or that of the mean of the metric where that is a field.
     index: usize,
+    of_velocity: bool,
     /// 𝓚e.
     direction: Vec<f64>,
     /// `H₀𝓚e`, each coefficient as often as it stands in the full spectrum: dot products are means.
@@ -26,14 +27,14 @@ pub struct LengthCoupling {
 }
 
 impl LengthCoupling {
-    /// Room for the spectral states of `flow`.
+    /// Room for the spectral states of `flow`; where P₀ is one `of_velocity`, it moves the length with the curve.
     #[must_use]
-    pub fn new(flow: &GradientFlow) -> Self {
+    pub fn new(flow: &GradientFlow, of_velocity: bool) -> Self {
         let layout = flow.spectral_layout();
         let zero = vec![0.0; layout.len()];
         let (direction, row) = (zero.clone(), zero.clone());
         let index = flow.layout().metric().map_or(layout.length_index(), |field| layout.field(field).start);
-        Self { gamma: 0.0, layout, index, direction, row, response: zero, curvature: 0.0 }
+        Self { gamma: 0.0, layout, index, of_velocity, direction, row, response: zero, curvature: 0.0 }
     }
 
     /// Sets the coupling at the frozen state, given the inverse of the fields.
@@ -68,10 +69,10 @@ impl LengthCoupling {
         self.response = response;
     }
 
-    /// Completes x = P₀r by the row of the length; where the metric is a field, P₀ has moved the length with it.
+    /// Completes x = P₀r by the row of the length, unless P₀ has moved the length.
     fn couple_row(&self, x: &mut [f64]) {
         let (index, own) = (self.index, self.row[self.index]);
-        if index + 1 < x.len() {
+        if self.of_velocity {
             return;
         }
         let sum = dot(&self.row, x) - own * x[index];

@@ -6,6 +6,7 @@ mod fourier;
 mod length_coupling;
 mod metric_coupling;
 mod motion;
+mod normal_motion;
 mod residual_weights;
 mod stiff_curvature;
 mod stiff_exchange;
@@ -21,6 +22,7 @@ pub use fourier::mobility_symbol;
 use length_coupling::LengthCoupling;
 use metric_coupling::MetricCoupling;
 use motion::carries;
+use normal_motion::NormalMotion;
 pub use residual_weights::ResidualWeights;
 use stiff_curvature::StiffCurvature;
 use stiff_exchange::StiffExchange;
@@ -58,6 +60,8 @@ pub struct Preconditioner {
     carries: bool,
     /// Where the metric is a field: the inverse then acts on the normal velocity and the densities.
     metric: Option<MetricCoupling>,
+    /// Where the inverse acts on the normal velocity and the densities though the metric is no field.
+    motion: Option<NormalMotion>,
     /// Where densities exchange at no cost of slopes.
     exchange: Option<StiffExchange>,
     /// None where the mobility keeps the length.
@@ -72,14 +76,16 @@ impl Preconditioner {
     pub fn new(kind: LinearSolver, flow: &GradientFlow) -> Self {
         let layout = flow.layout();
         let modes = flow.spectral_layout().modes();
+        let banded = matches!(kind, LinearSolver::Banded | LinearSolver::BandedOnAllNodes);
+        let motion = NormalMotion::of(flow).filter(|_| banded && banded::exists(flow));
+        let of_velocity = motion.is_some() || flow.layout().metric().is_some();
+        let symbol = || FourierSymbol::new(layout, modes, of_velocity);
         let inverse = match kind {
-            LinearSolver::Auto | LinearSolver::Fourier => {
-                FieldInverse::Fourier(FourierSymbol::new(layout, modes))
-            }
+            LinearSolver::Auto | LinearSolver::Fourier => FieldInverse::Fourier(symbol()),
             LinearSolver::Banded | LinearSolver::BandedOnAllNodes => {
                 match banded::build(flow, kind == LinearSolver::BandedOnAllNodes) {
-                    Some(banded) => FieldInverse::Banded(banded, FourierSymbol::new(layout, modes)),
-                    None => FieldInverse::Fourier(FourierSymbol::new(layout, modes)),
+                    Some(banded) => FieldInverse::Banded(banded, symbol()),
+                    None => FieldInverse::Fourier(symbol()),
                 }
             }
             LinearSolver::Dense => FieldInverse::Dense(Dense::new(flow.spectral_layout())),
@@ -91,10 +97,11 @@ impl Preconditioner {
             weights: ResidualWeights::new(flow.spectral_layout()),
             stiff_curvature: StiffCurvature::new(flow),
             inverse,
-            carries: carries(flow) && !whole,
+            carries: carries(flow) && motion.is_none() && !whole,
+            motion,
             metric: MetricCoupling::of(flow).filter(|_| !whole),
             exchange: StiffExchange::of(flow).filter(|_| !whole),
-            coupling: (coupled && !whole).then(|| LengthCoupling::new(flow)),
+            coupling: (coupled && !whole).then(|| LengthCoupling::new(flow, of_velocity)),
         }
     }
 
@@ -116,6 +123,9 @@ impl Preconditioner {
         self.weights.set(flow, gamma);
         if let Some(metric) = &mut self.metric {
             metric.set(flow, gamma);
+        }
+        if let Some(motion) = &mut self.motion {
+            motion.set(flow, gamma);
         }
         if let Some(exchange) = &mut self.exchange {
             exchange.set(flow, gamma);
@@ -171,6 +181,9 @@ impl Preconditioner {
         if self.carries {
             flow.carry_densities(r, -1.0);
         }
+        if let Some(motion) = &mut self.motion {
+            motion.split(flow, r);
+        }
         match &mut self.inverse {
             FieldInverse::Fourier(symbol) => symbol.apply(layout.spectra_mut(r), 0),
             FieldInverse::Banded(banded, symbol) => {
@@ -180,6 +193,9 @@ impl Preconditioner {
                 symbol.apply(spectra, low);
             }
             FieldInverse::Dense(dense) => dense.apply(r),
+        }
+        if let Some(motion) = &mut self.motion {
+            motion.complete(flow, r);
         }
         if self.carries {
             flow.carry_densities(r, 1.0);

@@ -1,5 +1,5 @@
 //! Banded approximate inverses of I − γJ: [`local`] for nodes at fixed fractions of the length, [`material`] for nodes that move
-//! with the curve. See `THEORY.md`, eqs. (O2) and (O9).
+//! with the curve, or count so. See `THEORY.md`, eqs. (O2) and (O9).
 
 mod all_modes;
 mod coefficients;
@@ -19,6 +19,8 @@ use material::MaterialPart;
 use reach::{diffuses, most_at_first};
 pub use reach::{exists, leaves_modes};
 use window::Window;
+
+use super::normal_motion::NormalMotion;
 
 use crate::flow::gradient_flow::GradientFlow;
 use crate::geometry::Complex64;
@@ -65,7 +67,7 @@ fn on_nodes(flow: &GradientFlow, most: usize) -> Option<Box<dyn Banded>> {
 
 /// That of `F` fields, with a band of half-width `B`; on equidistant nodes at most `most_nodes` of them.
 fn of_fields<const F: usize, const B: usize>(flow: &GradientFlow, most_nodes: usize) -> Box<dyn Banded> {
-    if flow.layout().metric().is_some() {
+    if flow.layout().metric().is_some() || NormalMotion::serves(flow) {
         Box::new(MaterialPart::<F, B>::new(flow))
     } else {
         Box::new(LocalPart::<F, B>::new(flow, most_nodes))

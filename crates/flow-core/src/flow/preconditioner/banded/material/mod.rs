@@ -18,7 +18,7 @@ use crate::operators::{CyclicBanded, FactorisationError};
 /// Coefficients of all `F` unknowns at one node.
 type Row<const F: usize> = [f64; F];
 
-/// The band of one flow whose metric is a field.
+/// The band of one flow whose metric is a field, or whose nodes count as material points.
 #[derive(Debug)]
 pub struct MaterialPart<const F: usize, const B: usize> {
     window: Window,
@@ -32,6 +32,8 @@ pub struct MaterialPart<const F: usize, const B: usize> {
     /// Root of the ratio of the symbols, by field and mode.
     roots: Vec<f64>,
     coefficients: Coefficients<F>,
+    /// Minus the tension at the nodes; zero unless 𝓑 is −`Δ_s`.
+    stretching: Vec<f64>,
     /// δκ, δρ over the nodes i−1, i, i+1; their slopes over i−1 … i+2; the derivatives by them and by the stretch over i−2 … i+2; the
     /// force over i−3 … i+3.
     motion_rows: Vec<[[Row<F>; 3]; F]>,
@@ -58,6 +60,7 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
             matrix: CyclicBanded::in_blocks(coarse * F, F),
             roots: vec![1.0; F * grid.modes()],
             coefficients: Coefficients::new(nodes, grid),
+            stretching: vec![0.0; coarse],
             motion_rows: vec![[[[0.0; F]; 3]; F]; coarse],
             slope_rows: vec![[[[0.0; F]; 4]; F]; coarse],
             gradient_rows: vec![[[[0.0; F]; 5]; F]; coarse],
@@ -65,6 +68,20 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
             force_rows: vec![[[0.0; F]; 7]; coarse],
             values: vec![0.0; coarse * F],
             window,
+        }
+    }
+
+    /// Takes the tension under surface diffusion, where long waves feel it more than they do without.
+    fn set_tension(&mut self, flow: &GradientFlow) {
+        if !self.is_surface_diffusion {
+            return;
+        }
+        let stretching = flow.frozen_stretching();
+        if flow.energy_terms().depends_on_positions() || stretching.len() != self.stretching.len() {
+            // What the tension of the positions does, their second derivative takes away.
+            self.stretching.fill(-flow.mean_tension());
+        } else {
+            self.stretching.copy_from_slice(stretching);
         }
     }
 
@@ -103,11 +120,12 @@ impl<const F: usize, const B: usize> Banded for MaterialPart<F, B> {
             *keeps = density.conserves_mass();
         }
         self.length = flow.frozen().length();
-        if let Some(metric) = flow.frozen().moving_metric() {
+        if let Some(metric) = flow.frozen().grading() {
             self.local.set(metric);
         }
         self.coefficients.set(flow, &mut self.window.grid);
         self.set_roots(flow, gamma);
+        self.set_tension(flow);
         self.set_stencils(&flow.energy_terms().implicit_costs());
         self.fill(flow, gamma);
         self.matrix.factorise()

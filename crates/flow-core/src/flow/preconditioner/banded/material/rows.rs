@@ -144,6 +144,9 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
             add(&mut row, shift, weights[shift], &self.gradient_rows[node][0]);
         }
         add(&mut row, 1, kappa, &self.stretch_rows[i]);
+        for k in 0..3 {
+            row[2 + k][0] -= self.stretching[i] * weights[k];
+        }
         for g in 1..F {
             add(&mut row, 1, -kappa * self.coefficients.field(i, g), &self.gradient_rows[i][g]);
         }
