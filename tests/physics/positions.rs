@@ -121,32 +121,6 @@ fn adhesion_lowers_the_energy_at_every_step_with_any_cut_off() {
 }
 
 #[test]
-fn a_run_stops_on_contact_if_the_scene_says_so() {
-    let scene_text = |stop: bool| {
-        format!(
-            "
-            curve = {{ shape = 'ellipse', semi_axes = [2.0, 0.6] }}
-            energy.bending.rigidity = 0.05
-            energy.length = {{ penalty = 100.0, target_ratio = 1.0 }}
-            energy.area.pressure = -5.0
-            flow.stop_on_contact = {stop}
-            time = {{ end = 0.4, stop_at_equilibrium = false }}
-            accuracy = {{ tolerance = 1e-5, nodes = 256 }}
-            output.frames = 40
-            "
-        )
-    };
-    let record = run(&scene(&scene_text(true)));
-    assert_eq!(record.stop_reason, StopReason::Contact);
-    let (end, before) = record.frames.split_last().expect("the initial frame");
-    assert!(before.iter().all(|frame| frame.crossings == 0.0) && end.crossings > 0.0, "{}", end.crossings);
-    assert!(end.time < 0.4);
-    let record = run(&scene(&scene_text(false)));
-    assert_eq!(record.stop_reason, StopReason::EndTime);
-    assert!(record.frames.iter().any(|frame| frame.crossings > 0.0));
-}
-
-#[test]
 fn the_curve_moves_at_its_normal_velocity_wherever_it_points() {
     for gauge in ["'scaled-arc-length'", "'graded'\ngrading = '1 + 0.4*cos(2*pi*s)'", "'co-moving'"] {
         let record = run(&scene(&format!(
@@ -182,22 +156,6 @@ fn the_curve_moves_at_its_normal_velocity_wherever_it_points() {
             assert!((moved - velocity).abs() < 1e-4 * largest, "{gauge}, node {node}: {moved} {velocity}");
         }
     }
-}
-
-#[test]
-fn a_curve_that_comes_free_of_itself_is_not_in_contact() {
-    let record = run(&scene(
-        "
-        curve = { shape = 'parametric', x = '2*cos(phi)', y = 'sin(phi)*(cos(phi)^2 - 0.05)' }
-        energy.bending.rigidity = 1.0
-        energy.length = { penalty = 100.0, target_ratio = 1.0 }
-        flow.stop_on_contact = true
-        time = { end = 0.2, stop_at_equilibrium = false }
-        accuracy = { tolerance = 1e-5, nodes = 128 }
-        ",
-    ));
-    assert_eq!((record.frames[0].crossings, last(&record).crossings), (2.0, 0.0));
-    assert_eq!(record.stop_reason, StopReason::EndTime);
 }
 
 /// Without its tension in the implicit operator such a flow is stepped as if explicitly: thousands of steps, or no end at all.

@@ -81,6 +81,24 @@ fn json_has_the_same_keys_however_a_run_ends() {
 }
 
 #[test]
+fn a_contact_is_told_with_its_time() {
+    let folder = Folder::empty("contact");
+    let scene = "curve = { shape = 'parametric', x = '2*cos(phi)', y = 'sin(phi)*(0.15 + 0.85*cos(phi)^2)' }\n\
+                 energy.bending.rigidity = 0.05\nenergy.length = { penalty = 10.0, target_ratio = 1.0 }\n\
+                 energy.adhesion.kernel = '-0.5*exp(-q/0.05)'\nflow.stop_on_contact = true\ntime.end = 5.0\n";
+    fs::write(folder.0.join("neck.toml"), scene).unwrap();
+    let output = folder.call(&["run", "neck.toml", "--set", "accuracy.tolerance=1e-5"]);
+    let said_of_run = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        output.status.success() && said_of_run.contains("in contact with itself: t = 1.419"),
+        "{said_of_run}"
+    );
+    let info = json(&folder, &["info", "neck.h5", "--json"]);
+    assert_eq!((&info["stop_reason"], &info["crossings_last"]), (&"contact".into(), &0.into()));
+    assert_eq!(info["events"][0], format!("contact at t = {}", info["time"]));
+}
+
+#[test]
 fn the_counts_of_check_are_whole_numbers() {
     let folder = Folder::empty("counts");
     let prediction = json(&folder, &["check", "circle", "--json"]);

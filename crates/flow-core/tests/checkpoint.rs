@@ -16,8 +16,23 @@ fn shipped(name: &str, changes: &[(&str, &str)]) -> Scene {
     Scene::parse_with(text, name, &changes).expect("valid")
 }
 
+/// Two lobes that adhesion brings together, with a frame of the schedule before and one after the contact, in its step.
+const NECK: &str = "
+curve = { shape = 'parametric', x = '2*cos(phi)', y = 'sin(phi)*(0.15 + 0.85*cos(phi)^2)' }
+energy.bending.rigidity = 0.05
+energy.length = { penalty = 10.0, target_ratio = 1.0 }
+energy.adhesion.kernel = '-0.5*exp(-q/0.05)'
+flow.stop_on_contact = true
+time.end = 5.0
+accuracy.tolerance = 1e-5
+output.times = [0.1, 0.139, 0.143, 0.15]
+";
+
 fn scenes() -> Vec<Scene> {
     vec![
+        Scene::parse(NECK, "neck").expect("valid"),
+        Scene::parse_with(NECK, "neck", &[("accuracy.linear_solver".into(), "banded".into())])
+            .expect("valid"),
         shipped("three_fold", &[("accuracy.nodes", "128"), ("time.end", "0.05")]),
         shipped("length_penalty", &[]),
         shipped("three_fold", &[("accuracy.nodes", "auto"), ("time.end", "0.01")]),

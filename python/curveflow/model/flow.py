@@ -38,6 +38,6 @@ class Flow(Table):
     """The metric of the graded gauge, and the first one of the co-moving gauge, a positive expression of ``s`` up to a factor: nodes
     crowd where it is small. Without one the nodes of the graded gauge follow the solution (D13)."""
     stop_on_contact: bool = default("flow", "stop_on_contact")
-    """Whether the run stops once the curve crosses itself more often than at the start (G7)."""
+    """Whether the run stops once the curve crosses itself more often than at the start: its last state is from just before (G7)."""
     switch: Sequence[Switch] = ()
     """Changes of the gauge on the way, in the order of their times; kept as a tuple."""

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::bdf;
 use super::exponential::ExponentialMemory;
 use super::history::MOST_POINTS;
-use super::integrals::Integrals;
+use super::integrals::{INTEGRALS, Integrals};
 use super::newton::Factorisation;
 use super::pace::Pace;
 
@@ -61,12 +61,23 @@ impl Memory {
         self.pace = Pace { steps_at_order: 0, ..self.pace.of_order_at_most(most) };
         self
     }
+
+    /// For who goes no further than a `time` within the last step: it ends there, in `state` and with these `integrals`.
+    #[must_use]
+    pub fn ended_at(self, time: f64, state: &[f64], integrals: [f64; INTEGRALS]) -> Self {
+        let mut ended = self.implicit();
+        if let Some(newest) = ended.points.first_mut() {
+            *newest = (time, state.to_vec());
+        }
+        ended.integrals = Integrals::new(time, integrals, [0.0; INTEGRALS]);
+        ended.factorisation = Factorisation::default();
+        ended
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::integrator::INTEGRALS;
 
     #[test]
     fn past_states_out_of_order_are_those_of_no_run() {

@@ -97,7 +97,8 @@ pub enum StopReason {
     EndTime,
     /// The dissipation fell below the bound for equilibrium.
     Equilibrium,
-    /// The curve crossed itself more often than at the start, and the scene says to stop then.
+    /// The curve came to cross itself more often than at the start, and the scene says to stop then: the last frame is from just
+    /// before.
     Contact,
     /// It was stopped from outside: by an observer (signal, Ctrl-C, limit), or since nobody asked for more steps.
     Interrupted,

@@ -1,6 +1,6 @@
 //! How a run ended, what it kept and what it cost: keys and values, in the order of the table.
 
-use flow_core::run::{Frame, Provenance, Record, Rejections, warnings};
+use flow_core::run::{Frame, Provenance, Record, Rejections, StopReason, warnings};
 use serde_json::{Value, json};
 
 use crate::print::{count, number};
@@ -44,14 +44,15 @@ fn states(record: &Record) -> Vec<(&'static str, Value)> {
     ]
 }
 
-/// Changes of the number of self-crossings.
+/// Changes of the number of self-crossings, and the contact that ended the run.
 fn events(record: &Record) -> Vec<String> {
     let changes = record.frames.windows(2).filter(|pair| pair[0].crossings != pair[1].crossings);
     let told = |pair: &[Frame]| {
         let (before, now) = (pair[0].crossings, pair[1].crossings);
         format!("{before} → {now} crossings between t = {} and {}", pair[0].time, pair[1].time)
     };
-    changes.map(told).collect()
+    let ended = record.frames.last().filter(|_| record.stop_reason == StopReason::Contact);
+    changes.map(told).chain(ended.map(|last| format!("contact at t = {}", last.time))).collect()
 }
 
 fn masses(record: &Record) -> Vec<(String, Value)> {

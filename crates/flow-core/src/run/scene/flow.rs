@@ -25,8 +25,8 @@ pub struct Flow {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(transform = Within(Bound::Positive))]
     pub grading: Option<Formula>,
-    /// Whether the run stops once the curve crosses itself more often than at the start; crossings are legal unless
-    /// this is set.
+    /// Whether the run stops once the curve crosses itself more often than at the start, in the last state before that; crossings
+    /// are legal unless this is set.
     pub stop_on_contact: bool,
     /// Changes of the gauge on the way, in the order of their times.
     #[serde(skip_serializing_if = "Vec::is_empty")]

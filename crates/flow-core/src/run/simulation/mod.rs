@@ -2,6 +2,7 @@
 
 mod ahead;
 mod clocks;
+mod contact;
 mod discretised;
 mod frame;
 mod recording;
@@ -128,7 +129,7 @@ impl Simulation {
         end
     }
 
-    /// Logs an accepted step, saves frames, tells `observer`, and stops the run if it is over.
+    /// Saves the frames of an accepted step, logs it, tells `observer`, and stops the run if it is over.
     fn after_step(
         &mut self,
         report: Result<StepReport, IntegrationError>,
@@ -143,14 +144,16 @@ impl Simulation {
             (Err(error), _) => self.fail_step(error),
             (Ok(report), fault) => {
                 self.closure_defect = self.on.membrane.closure_defect();
+                let contact = if fault.is_none() { self.contact(&report) } else { None };
+                let room = self.save_frames(contact.unwrap_or(report.time));
+                let report = contact.map_or(report, |time| self.end_step_at(time, &report));
                 self.log(&report);
-                let room = self.save_frames();
                 let asked_to_stop = self.tell(&report, observer).is_break();
                 if let Err(error) = room {
                     self.fail(Failure::Limit { time: report.time, error });
                 } else if let Some(fault) = fault {
                     self.fail(Failure::Term { time: report.time, fault });
-                } else if self.in_contact() {
+                } else if contact.is_some() {
                     self.stop(StopReason::Contact);
                 } else if self.at_rest(&report) {
                     self.stop(StopReason::Equilibrium);
@@ -169,11 +172,6 @@ impl Simulation {
                 }
             }
         }
-    }
-
-    fn in_contact(&mut self) -> bool {
-        let state = self.integration.stepper().state();
-        self.allowed_crossings.is_some_and(|allowed| self.on.membrane.crossings(state) > allowed)
     }
 
     fn at_rest(&mut self, report: &StepReport) -> bool {

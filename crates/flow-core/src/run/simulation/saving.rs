@@ -25,12 +25,11 @@ impl FrameRoom {
 }
 
 impl Simulation {
-    /// Saves the frames up to the time at hand, and says if there is no room for the next one.
+    /// Saves the frames before `now`, which lie in the last step, and says if there is no room for the next one.
     ///
     /// # Errors
     /// [`SetupError::TooMuchOutput`]; the frame is not saved then.
-    pub(super) fn save_frames(&mut self) -> Result<(), SetupError> {
-        let now = self.integration.stepper().time();
+    pub(super) fn save_frames(&mut self, now: f64) -> Result<(), SetupError> {
         while let Some(time) = self.next_frame().filter(|time| *time < now) {
             let clock = Instant::now();
             self.check_room(1, self.layout())?;
