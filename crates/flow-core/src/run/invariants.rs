@@ -160,18 +160,20 @@ impl Invariants {
                 self.set_length(y, length * ratio.sqrt());
                 break;
             }
-            if !self.bend(turning, flow, closure, now - self.area) {
+            if !self.bend(y, flow, closure, now - self.area) {
                 break;
             }
+            let turning = &mut self.layout.spectra_mut(y)[..modes];
             closure.project(turning, length, turning_number, angle)?;
         }
         Ok(())
     }
 
-    /// K += c q, q the part of −∂A/∂K = |γ|²/2 that the closure does not see; δA = −c⟨q²⟩. False on a circle.
+    /// K += c q, q the part of −∂A/∂K = |γ|²/2 that the closure does not see; δA = −c⟨q²⟩. False on a circle, and on one that is held
+    /// where q is so small, the error of the nodes, that c q would change the area more to second order than to first.
     fn bend(
         &mut self,
-        turning: &mut [Complex64],
+        state: &mut [f64],
         flow: &mut GradientFlow,
         closure: &mut Closure,
         excess: f64,
@@ -197,8 +199,11 @@ impl Invariants {
         if square.is_nan() || square <= ROUND * whole * whole {
             return false;
         }
+        if square <= excess.abs() * whole && flow.holds_curve(state) {
+            return false;
+        }
         let factor = excess / square;
-        for (turning, q) in turning.iter_mut().zip(&self.square) {
+        for (turning, q) in self.layout.spectra_mut(state).iter_mut().zip(&self.square) {
             *turning += q * factor;
         }
         true

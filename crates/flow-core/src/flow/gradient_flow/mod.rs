@@ -166,6 +166,16 @@ impl GradientFlow {
         self.current.fields.set(state, grid, derivative);
     }
 
+    /// Takes the fields of the spectral `state`; whether the normal mobility holds the curve there ([`NormalMobility::holds_curve`]).
+    ///
+    /// # Panics
+    /// If `state` is no spectral vector of the layout.
+    pub fn holds_curve(&mut self, state: &[f64]) -> bool {
+        self.set_current(state);
+        self.current.set_mobility();
+        self.current.fault.is_none() && self.current.mobility.holds_curve()
+    }
+
     /// Energy of the spectral `state`; its gradient is then at [`GradientFlow::gradient`].
     ///
     /// # Panics

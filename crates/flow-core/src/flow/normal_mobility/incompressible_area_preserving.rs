@@ -100,6 +100,10 @@ impl NormalMobility for IncompressibleAreaPreserving {
         if self.holds { 0.0 } else { self.incompressible.symbol(wave_square) }
     }
 
+    fn holds_curve(&self) -> bool {
+        self.holds
+    }
+
     fn keeps(&self) -> Kept {
         Kept { length: true, area: true }
     }

@@ -90,6 +90,11 @@ pub trait NormalMobility: Debug + Send + Sync {
         0
     }
 
+    /// Whether 𝓑 = 0 at the state of [`NormalMobility::set`], since what the flow keeps leaves the curve nowhere to go.
+    fn holds_curve(&self) -> bool {
+        false
+    }
+
     /// What the flow keeps.
     fn keeps(&self) -> Kept {
         Kept::default()

@@ -38,3 +38,10 @@ pub fn leaves_modes(flow: &GradientFlow) -> bool {
 pub fn diffuses(flow: &GradientFlow) -> bool {
     flow.normal_mobility().is_minus_laplacian()
 }
+
+/// γ in what moves the curve: zero where the normal mobility holds it.
+///
+/// A solve is exact to its tolerance alone, and what a band that moves such a curve leaves there can take it out of the hold.
+pub fn gamma_of_motion(flow: &GradientFlow, gamma: f64) -> f64 {
+    if flow.normal_mobility().holds_curve() { 0.0 } else { gamma }
+}

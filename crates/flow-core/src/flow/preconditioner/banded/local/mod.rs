@@ -75,7 +75,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
     }
 
     /// Symbols of the diagonal block of `field` with mean coefficients: by second differences with the normal mobility
-    /// left out unless it is surface diffusion, as in the band, and the right one.
+    /// left out unless it is surface diffusion or holds the curve, as in the band, and the right one.
     fn diagonal_symbols(
         &self,
         flow: &GradientFlow,
@@ -86,7 +86,8 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
     ) -> [f64; 2] {
         let length = flow.symbol_length();
         let square = difference / (length * length);
-        let band = if field == 0 && !self.is_surface_diffusion {
+        let left_out = !self.is_surface_diffusion && !flow.normal_mobility().holds_curve();
+        let band = if field == 0 && left_out {
             square * square
         } else {
             mobility_symbol(flow, field, difference, length)

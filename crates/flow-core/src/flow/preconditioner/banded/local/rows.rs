@@ -6,6 +6,7 @@ use multiversion::multiversion;
 
 use super::super::super::motion::carries;
 use super::super::compact_laplacian::{DIFFERENCE, MASS, power_of_mass};
+use super::super::reach::gamma_of_motion;
 use super::LocalPart;
 use crate::flow::gradient_flow::GradientFlow;
 use crate::operators::{CyclicBanded, LANES, Lane};
@@ -76,7 +77,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
         let Stencils { nodes, gradients, forces, diffused } = &mut self.stencils;
         set_gradients(nodes, &flow.energy_terms().implicit_costs(), gradients);
         set_forces(nodes, gradients, forces);
-        let factors = (gamma, carries(flow));
+        let factors = (gamma, gamma_of_motion(flow, gamma), carries(flow));
         if self.is_surface_diffusion {
             diffuse(nodes, forces, diffused);
             set_rows::<F, B, 7, 9, 3>(nodes, (gradients, diffused), factors, &MASS, &mut self.matrix);
@@ -182,7 +183,7 @@ fn diffuse<const F: usize>(nodes: &[Node<F>], forces: &[Force<F>], diffused: &mu
 fn set_rows<const F: usize, const B: usize, const V: usize, const R: usize, const M: usize>(
     nodes: &[Node<F>],
     (gradients, velocities): (&[Gradient<F>], &[[Row<F>; V]]),
-    (gamma, carries): (f64, bool),
+    (gamma, gamma_of_motion, carries): (f64, f64, bool),
     mass: &[f64; M],
     matrix: &mut CyclicBanded<B>,
 ) {
@@ -201,7 +202,7 @@ fn set_rows<const F: usize, const B: usize, const V: usize, const R: usize, cons
                 for shift in 0..3 {
                     let (difference, kappa) = (&own.difference[shift], &neighbours[shift].fields[0]);
                     let factor = std::array::from_fn(|lane| {
-                        gamma * (difference[lane] + MASS[shift] * kappa[lane] * kappa[lane])
+                        gamma_of_motion * (difference[lane] + MASS[shift] * kappa[lane] * kappa[lane])
                     });
                     for k in 0..V {
                         for g in 0..F {
@@ -214,8 +215,9 @@ fn set_rows<const F: usize, const B: usize, const V: usize, const R: usize, cons
                     row[1 + k][f] = [own_power[k]; LANES];
                 }
                 if !carries {
-                    let damping =
-                        std::array::from_fn(|lane| gamma * own.fields[0][lane] * own.fields[f][lane]);
+                    let damping = std::array::from_fn(|lane| {
+                        gamma_of_motion * own.fields[0][lane] * own.fields[f][lane]
+                    });
                     for k in 0..V {
                         for g in 0..F {
                             add_product(&mut row[1 + k][g], &damping, &velocities[1][k][g]);

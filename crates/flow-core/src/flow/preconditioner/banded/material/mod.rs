@@ -86,10 +86,11 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
     }
 
     /// Roots of the ratio of the symbols with mean coefficients, by second differences, with 𝓑 = Id unless it is that of
-    /// surface diffusion, to the right ones.
+    /// surface diffusion or holds the curve, to the right ones.
     fn set_roots(&mut self, flow: &GradientFlow, gamma: f64) {
         let (nodes, modes, length) =
             (self.window.grid.nodes() as f64, self.window.grid.modes(), flow.symbol_length());
+        let is_identity = !self.is_surface_diffusion && !flow.normal_mobility().holds_curve();
         for field in 0..F {
             let mean = flow.energy_terms().convex_mean(field);
             let stiffness = flow.energy_terms().implicit_stiffness()[field];
@@ -97,7 +98,7 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
                 let exact = flow.derivative().minus_laplacian()[mode];
                 let difference = (2.0 * nodes * (std::f64::consts::PI * mode as f64 / nodes).sin()).powi(2);
                 let band = match field {
-                    0 if !self.is_surface_diffusion => (difference / (length * length)).powi(2),
+                    0 if is_identity => (difference / (length * length)).powi(2),
                     _ => mobility_symbol(flow, field, difference, length),
                 };
                 let symbol = |mobility: f64, laplacian: f64| {

@@ -2,6 +2,7 @@
 //! `∫ δφ·e″δφ + c(∇_sδφ − λ∇_sφ)² + 2cλΔ_sφ δφ dσ`, with the stretch λ = κv.
 
 use super::super::compact_laplacian::neighbours;
+use super::super::reach::gamma_of_motion;
 use super::{MaterialPart, Row};
 use crate::flow::gradient_flow::GradientFlow;
 
@@ -104,7 +105,7 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
         (gradient, stretch)
     }
 
-    /// Fills I + γ(𝓑Bᵀp for v, 𝓖p for ν), with 𝓑 that of surface diffusion or Id.
+    /// Fills I + γ(𝓑Bᵀp for v, 𝓖p for ν), with 𝓑 that of surface diffusion or Id, or zero where the curve is held.
     pub(super) fn fill(&mut self, flow: &GradientFlow, gamma: f64) {
         let (densities, nodes) = (flow.density_mobilities(), self.window.grid.nodes());
         for i in 0..nodes {
@@ -122,7 +123,7 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
             } else {
                 let mut row = [[0.0; F]; 7];
                 row[3][0] = 1.0;
-                add(&mut row, 0, gamma, &self.force_rows[i]);
+                add(&mut row, 0, gamma_of_motion(flow, gamma), &self.force_rows[i]);
                 self.matrix.set_row(i * F, -((3 * F) as isize), row.as_flattened());
             }
             for f in 1..F {
