@@ -250,7 +250,11 @@ fn constants_of_the_motion_do_not_bring_the_rest_early() {
 fn an_area_that_is_kept_costs_no_steps() {
     for mobility in ["area-preserving", "surface-diffusion"] {
         let plain = to_a_circle("bending.rigidity = 1.0", mobility, "1e-5");
-        for area in ["area.pressure = 1e3", "area = { penalty = 1e4, target_ratio = 0.9 }"] {
+        for area in [
+            "area.pressure = 1e3",
+            "area = { penalty = 1e4, target_ratio = 0.9 }",
+            "area = { penalty = 1e8, target_ratio = 0.9999 }",
+        ] {
             let energy = format!("bending.rigidity = 1.0, {area}");
             let record = to_a_circle(&energy, mobility, "1e-5");
             check_rest(&record, &plain, &energy);

@@ -60,8 +60,8 @@ impl EnergyTerm for Area {
         true
     }
 
-    fn is_of_area(&self) -> bool {
-        true
+    fn cost_of_area(&self, area: f64) -> Option<f64> {
+        Some(self.of_area(area)[0])
     }
 
     fn add_shape_energy(&mut self, shape: &ShapeFields, _: Order, out: &mut ShapeFields) -> f64 {

@@ -134,9 +134,9 @@ pub trait EnergyTerm: Debug + Send + Sync {
         false
     }
 
-    /// Whether the term is a function of the enclosed area, and of nothing else: no force then where the flow keeps that.
-    fn is_of_area(&self) -> bool {
-        false
+    /// What the enclosed area `area` costs, if the term is a function of that alone: a constant without a force where the flow keeps it.
+    fn cost_of_area(&self, _area: f64) -> Option<f64> {
+        None
     }
 
     /// Largest distance of nodes on which the sums of [`EnergyTerm::add_shape_energy`] on a curve of length `length` are off by the

@@ -138,7 +138,7 @@ impl Diagnostics {
                     fields.extend(self.parts.velocities(y));
                     continue;
                 }
-                OutputField::NormalForce => whole_force(flow, y),
+                OutputField::NormalForce => flow.whole_normal_force(y),
                 OutputField::TangentialVelocity => {
                     let mut w = vec![0.0; nodes];
                     flow.tangential_velocity(&mut w);
@@ -167,18 +167,6 @@ impl Diagnostics {
         let norm = |values: Vec<f64>| (at.length() * at.mean_of_product(&values, &values)).sqrt();
         vec![norm(off.collect()), norm(residual.collect())]
     }
-}
-
-/// The force at the nodal state `y`, with that of an area that is kept.
-fn whole_force(flow: &mut GradientFlow, y: &[f64]) -> Vec<f64> {
-    if !flow.set_kept_area_idle(false) {
-        return flow.normal_force().to_vec();
-    }
-    flow.dissipation_at(y);
-    let force = flow.normal_force().to_vec();
-    flow.set_kept_area_idle(true);
-    flow.dissipation_at(y);
-    force
 }
 
 /// The membrane term, if it becomes incompressibility as ε → 0: under the L² flow and plain diffusion.

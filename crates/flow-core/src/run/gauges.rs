@@ -102,7 +102,7 @@ impl Gauges {
         turning_number: i32,
     ) -> Result<(Membrane, Diagnostics), SetupError> {
         let (mut flow, diagnostics) = assembly::flow(&self.scene, &self.initial, nodes, grading)?;
-        flow.set_kept_area_idle(true);
+        flow.set_kept_area(self.initial.area);
         let solver = linear_solver(self.scene.accuracy.linear_solver);
         Ok((Membrane::new(flow, solver, turning_number, 0.0), diagnostics))
     }

@@ -42,7 +42,7 @@ impl TermParts {
         }
         if asked(OutputField::NormalVelocities) {
             for term in energy_terms(scene, initial, layout.nodes())? {
-                parts.flows.push((term.name(), flow_of(scene, term, layout, derivative)));
+                parts.flows.push((term.name(), flow_of(scene, term, layout, derivative, initial.area)));
             }
         }
         Ok(parts)
@@ -82,6 +82,7 @@ fn flow_of(
     term: Box<dyn EnergyTerm>,
     layout: Layout,
     derivative: &Derivative,
+    area: f64,
 ) -> GradientFlow {
     let grid = PeriodicGrid::new(layout.nodes());
     let energy = EnergySum::new(vec![term], layout, &grid, derivative);
@@ -89,6 +90,6 @@ fn flow_of(
     let normal = normal_mobility(scene, &grid, derivative);
     let densities = (0..layout.densities()).map(|_| Box::new(Carried) as _).collect();
     let mut flow = GradientFlow::new(map, energy, layout, normal, densities);
-    flow.set_kept_area_idle(true);
+    flow.set_kept_area(area);
     flow
 }

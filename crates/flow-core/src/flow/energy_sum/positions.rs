@@ -24,14 +24,17 @@ impl EnergySum {
         self.terms.iter().map(|term| term.largest_spacing(length, error)).fold(f64::INFINITY, f64::min)
     }
 
-    /// Takes what the area costs for a constant from now on, or no longer: it counts in energies and has no derivatives.
-    /// Returns whether there is such a term.
-    pub fn set_area_idle(&mut self, idle: bool) -> bool {
-        let costs = self.terms.iter().any(|term| term.is_of_area());
-        if let Some(shape) = self.shape.as_mut().filter(|_| costs) {
-            shape.set_area_idle(idle);
+    /// Takes what the area costs for what it does at `kept_area` from now on, a constant that counts in energies, or no longer.
+    pub fn set_kept_area(&mut self, kept_area: Option<f64>) {
+        if let Some(shape) = &mut self.shape {
+            shape.set_kept_area(kept_area);
         }
-        costs
+    }
+
+    /// The area at which what it costs is a constant.
+    #[must_use]
+    pub fn kept_area(&self) -> Option<f64> {
+        self.shape.as_ref().and_then(ShapeEnergy::kept_area)
     }
 
     /// Whether something holds the length: a penalty on it, or an energy of positions.

@@ -122,11 +122,26 @@ impl GradientFlow {
         }
     }
 
-    /// Leaves out the force of what an area costs that the flow keeps (F21), or no longer. It moves nothing; left in, its rounding, and what
-    /// steps of finite length change of the area, are as dear as the area is.
-    /// Returns whether there was any.
-    pub fn set_kept_area_idle(&mut self, idle: bool) -> bool {
-        self.current.mobility.keeps().area && self.energy.set_area_idle(idle)
+    /// Where the flow keeps the area, takes what it costs for what it does at `area` from now on, a constant without a force (F21). Left in,
+    /// the force moves nothing, but its rounding, and what steps of finite length change of the area, are as dear as the area is.
+    pub fn set_kept_area(&mut self, area: f64) {
+        if self.current.mobility.keeps().area {
+            self.energy.set_kept_area(Some(area));
+        }
+    }
+
+    /// Force on the normal motion at the nodal `state`, with that of an area that is kept; evaluates the state.
+    ///
+    /// # Panics
+    /// If `state` is no nodal vector of the layout.
+    pub fn whole_normal_force(&mut self, state: &[f64]) -> Vec<f64> {
+        let Some(area) = self.energy.kept_area() else { return self.normal_force().to_vec() };
+        self.energy.set_kept_area(None);
+        self.dissipation_at(state);
+        let force = self.normal_force().to_vec();
+        self.energy.set_kept_area(Some(area));
+        self.dissipation_at(state);
+        force
     }
 
     /// Rate of `state` into `rate`, per time, both spectral ([`crate::geometry::SpectralLayout`]).

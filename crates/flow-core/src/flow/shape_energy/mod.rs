@@ -39,8 +39,8 @@ pub struct ShapeEnergy {
     metric: Option<usize>,
     /// The energy of what holds the area, at the linearisation.
     held: Option<Area>,
-    /// Takes the derivatives of functions of the area where these are left out.
-    idle: Option<ShapeFields>,
+    /// The area at which what it costs is a constant.
+    kept_area: Option<f64>,
 }
 
 /// What the second derivative needs.
@@ -109,7 +109,7 @@ impl ShapeEnergy {
             frozen,
             metric: layout.metric(),
             held: None,
-            idle: None,
+            kept_area: None,
             angle: vec![0.0; nodes],
             values: vec![0.0; nodes],
             spectrum: vec![Complex64::default(); grid.modes()],
@@ -142,9 +142,15 @@ impl ShapeEnergy {
         self.shape.length = length;
     }
 
-    /// Takes what the area costs for a constant from now on, or no longer: it counts in energies and has no derivatives.
-    pub fn set_area_idle(&mut self, idle: bool) {
-        self.idle = idle.then(|| self.dual.clone());
+    /// Takes what the area costs for what it does at `kept_area` from now on, a constant, or no longer.
+    pub fn set_kept_area(&mut self, kept_area: Option<f64>) {
+        self.kept_area = kept_area;
+    }
+
+    /// The area at which what it costs is a constant.
+    #[must_use]
+    pub fn kept_area(&self) -> Option<f64> {
+        self.kept_area
     }
 
     /// Adds to the gradient, by K and by the length at fixed K; returns the energy.
@@ -159,10 +165,8 @@ impl ShapeEnergy {
         self.dual.clear();
         let (mut energy, mut of_lines) = (0.0, 0.0);
         for term in terms.iter_mut().filter(|term| term.has_shape_energy()) {
-            let value = match &mut self.idle {
-                Some(idle) if term.is_of_area() => term.add_shape_energy(&self.shape, Order::Value, idle),
-                _ => term.add_shape_energy(&self.shape, order, &mut self.dual),
-            };
+            let constant = self.kept_area.and_then(|area| term.cost_of_area(area));
+            let value = constant.unwrap_or_else(|| term.add_shape_energy(&self.shape, order, &mut self.dual));
             energy += value;
             of_lines += if term.is_line_energy() { value } else { 0.0 };
         }
@@ -219,8 +223,9 @@ impl ShapeEnergy {
         let length = self.frozen.shape.length;
         self.embed_motion(v);
         self.dual.clear();
-        let is_idle = |term: &dyn EnergyTerm| self.idle.is_some() && term.is_of_area();
-        for term in terms.iter_mut().filter(|term| term.has_shape_energy() && !is_idle(&***term)) {
+        let kept = self.kept_area;
+        let is_constant = |term: &dyn EnergyTerm| kept.is_some_and(|area| term.cost_of_area(area).is_some());
+        for term in terms.iter_mut().filter(|term| term.has_shape_energy() && !is_constant(&***term)) {
             term.add_shape_hessian_product(&self.frozen.shape, &self.motion, &mut self.dual);
         }
         if let Some(held) = &mut self.held {

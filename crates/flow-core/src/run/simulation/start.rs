@@ -62,7 +62,7 @@ impl Simulation {
         let scene = &scene.clone().checked()?;
         let doubts_gradients = own.exist();
         let mut setup = Setup::of(scene, own)?;
-        setup.membrane.flow().set_kept_area_idle(true);
+        setup.membrane.flow().set_kept_area(setup.initial.area);
         let own_terms = setup.initial.own.names(setup.mesh.nodes);
         let (energy, integral_rates) = setup.finish()?;
         if let Some(fault) = setup.membrane.flow().fault() {
