@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Marks at which every second one goes, but the first and the last.
+/// So many marks are thinned: every second one goes, the first and the last stay.
 const MOST_MARKS: usize = 9;
 /// Rates, each above the one before, that tell a growth from noise.
 const RATES: usize = 4;

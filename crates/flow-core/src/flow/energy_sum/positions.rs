@@ -31,10 +31,11 @@ impl EnergySum {
         }
     }
 
-    /// The area at which what it costs is a constant.
+    /// The area at which what it costs is a constant; none if it costs nothing.
     #[must_use]
     pub fn kept_area(&self) -> Option<f64> {
-        self.shape.as_ref().and_then(ShapeEnergy::kept_area)
+        let costs = |area: &f64| self.terms.iter().any(|term| term.cost_of_area(*area).is_some());
+        self.shape.as_ref().and_then(ShapeEnergy::kept_area).filter(costs)
     }
 
     /// Whether something holds the length: a penalty on it, or an energy of positions.

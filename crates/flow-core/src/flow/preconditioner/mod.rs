@@ -77,7 +77,7 @@ impl Preconditioner {
         let layout = flow.layout();
         let modes = flow.spectral_layout().modes();
         let banded = matches!(kind, LinearSolver::Banded | LinearSolver::BandedOnAllNodes);
-        let motion = NormalMotion::of(flow).filter(|_| banded && banded::exists(flow));
+        let motion = if banded && banded::exists(flow) { NormalMotion::of(flow) } else { None };
         let of_velocity = motion.is_some() || flow.layout().metric().is_some();
         let symbol = || FourierSymbol::new(layout, modes, of_velocity);
         let inverse = match kind {

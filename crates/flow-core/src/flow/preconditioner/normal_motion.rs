@@ -10,8 +10,8 @@ use bytemuck::{cast_slice, cast_slice_mut};
 
 use super::super::gradient_flow::GradientFlow;
 use super::stiff_exchange::StiffExchange;
-use crate::geometry::Complex64;
-use crate::geometry::vectors::{add_scaled, mean_of_product, multiply, shift};
+use crate::geometry::vectors::{add_scaled, mean_of_product, multiply, scale_into, shift};
+use crate::geometry::{Complex64, Embedding};
 use crate::operators::DerivativeFamily;
 
 /// Splits residuals, and converts between rates of the state and the velocities that make them.
@@ -20,6 +20,7 @@ pub struct NormalMotion {
     gamma: f64,
     /// The densities that are only carried: what V does not make of them stays as it is.
     carried: Vec<usize>,
+    embedding: Embedding,
     /// Components of |Γ|w times the tangent at the nodes, and of the tangent.
     steps: [Vec<f64>; 2],
     tangent: [Vec<f64>; 2],
@@ -59,6 +60,7 @@ impl NormalMotion {
         Self::serves(flow).then(|| Self {
             gamma: 0.0,
             carried: densities.filter(|(_, of)| of.is_zero()).map(|(i, _)| i + 1).collect(),
+            embedding: Embedding::graded(flow.layout().nodes(), flow.grading().cloned()),
             steps: [nodes.clone(), nodes.clone()],
             tangent: [nodes.clone(), nodes.clone()],
             openings: std::array::from_fn(|_| vec![Complex64::default(); layout.modes()]),
@@ -79,20 +81,13 @@ impl NormalMotion {
         let length = flow.frozen().length();
         let spectrum = flow.frozen().weighted_spectrum(0).iter();
         self.spectrum.iter_mut().zip(spectrum).for_each(|(target, value)| *target = value * length);
-        let turns = self.spectrum[0].re;
-        let grid = flow.grid_mut();
-        grid.integrate(&mut self.spectrum);
-        grid.synthesise(&self.spectrum, &mut self.angle);
-        let nodes = self.angle.len() as f64;
-        for (i, angle) in self.angle.iter().enumerate() {
-            let (sine, cosine) = (angle + turns * i as f64 / nodes).sin_cos();
-            self.tangent[0][i] = cosine;
-            self.tangent[1][i] = sine;
-        }
-        for (step, tangent) in self.steps.iter_mut().zip(&self.tangent) {
-            step.iter_mut().zip(tangent).for_each(|(step, tangent)| *step = length * tangent);
-            if let Some(weight) = flow.frozen().weight() {
-                multiply(step, weight);
+        self.embedding.set_tangent_spectrum(&self.spectrum, length, 0.0);
+        let weighted = self.embedding.tangent();
+        for ((step, tangent), weighted) in self.steps.iter_mut().zip(&mut self.tangent).zip(weighted) {
+            scale_into(step, length, weighted);
+            tangent.copy_from_slice(weighted);
+            if let Some(grading) = flow.grading() {
+                multiply(tangent, grading.inverse());
             }
         }
         self.set_openings(flow);

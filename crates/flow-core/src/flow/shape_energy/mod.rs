@@ -43,6 +43,11 @@ pub struct ShapeEnergy {
     kept_area: Option<f64>,
 }
 
+/// What `term` costs, if it is a constant since the area is kept.
+fn constant(kept_area: Option<f64>, term: &dyn EnergyTerm) -> Option<f64> {
+    kept_area.and_then(|area| term.cost_of_area(area))
+}
+
 /// What the second derivative needs.
 #[derive(Debug)]
 struct Frozen {
@@ -165,8 +170,8 @@ impl ShapeEnergy {
         self.dual.clear();
         let (mut energy, mut of_lines) = (0.0, 0.0);
         for term in terms.iter_mut().filter(|term| term.has_shape_energy()) {
-            let constant = self.kept_area.and_then(|area| term.cost_of_area(area));
-            let value = constant.unwrap_or_else(|| term.add_shape_energy(&self.shape, order, &mut self.dual));
+            let value = constant(self.kept_area, &**term)
+                .unwrap_or_else(|| term.add_shape_energy(&self.shape, order, &mut self.dual));
             energy += value;
             of_lines += if term.is_line_energy() { value } else { 0.0 };
         }
@@ -224,8 +229,8 @@ impl ShapeEnergy {
         self.embed_motion(v);
         self.dual.clear();
         let kept = self.kept_area;
-        let is_constant = |term: &dyn EnergyTerm| kept.is_some_and(|area| term.cost_of_area(area).is_some());
-        for term in terms.iter_mut().filter(|term| term.has_shape_energy() && !is_constant(&***term)) {
+        let moves = |term: &dyn EnergyTerm| term.has_shape_energy() && constant(kept, term).is_none();
+        for term in terms.iter_mut().filter(|term| moves(&***term)) {
             term.add_shape_hessian_product(&self.frozen.shape, &self.motion, &mut self.dual);
         }
         if let Some(held) = &mut self.held {

@@ -39,6 +39,11 @@ pub fn diffuses(flow: &GradientFlow) -> bool {
     flow.normal_mobility().is_minus_laplacian()
 }
 
+/// Whether the band has 𝓑 = Id, which is that of no surface diffusion and holds no curve.
+pub fn moves_freely(flow: &GradientFlow) -> bool {
+    !diffuses(flow) && !flow.normal_mobility().holds_curve()
+}
+
 /// γ in what moves the curve: zero where the normal mobility holds it.
 ///
 /// A solve is exact to its tolerance alone, and what a band that moves such a curve leaves there can take it out of the hold.

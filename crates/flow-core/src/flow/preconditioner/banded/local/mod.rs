@@ -12,7 +12,7 @@ use rows::Stencils;
 use super::super::fourier::{diagonal_symbol, mobility_symbol};
 use super::compact_laplacian::{mass_symbol, symbol_of_mass};
 use super::local_spacing::LocalSpacing;
-use super::reach::{MOST_UNEQUAL_NODES, diffuses, most_at_first};
+use super::reach::{MOST_UNEQUAL_NODES, diffuses, most_at_first, moves_freely};
 use super::{Banded, Coefficients, Window};
 use crate::flow::gradient_flow::GradientFlow;
 use crate::geometry::Complex64;
@@ -86,8 +86,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
     ) -> [f64; 2] {
         let length = flow.symbol_length();
         let square = difference / (length * length);
-        let left_out = !self.is_surface_diffusion && !flow.normal_mobility().holds_curve();
-        let band = if field == 0 && left_out {
+        let band = if field == 0 && moves_freely(flow) {
             square * square
         } else {
             mobility_symbol(flow, field, difference, length)

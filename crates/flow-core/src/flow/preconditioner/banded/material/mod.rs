@@ -8,7 +8,7 @@ mod rows;
 
 use super::super::fourier::mobility_symbol;
 use super::local_spacing::LocalSpacing;
-use super::reach::{MOST_UNEQUAL_NODES, diffuses};
+use super::reach::{MOST_UNEQUAL_NODES, diffuses, moves_freely};
 use super::{Banded, Coefficients, Window};
 use crate::flow::gradient_flow::GradientFlow;
 use crate::geometry::vectors::{multiply, scale};
@@ -90,7 +90,7 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
     fn set_roots(&mut self, flow: &GradientFlow, gamma: f64) {
         let (nodes, modes, length) =
             (self.window.grid.nodes() as f64, self.window.grid.modes(), flow.symbol_length());
-        let is_identity = !self.is_surface_diffusion && !flow.normal_mobility().holds_curve();
+        let moves_freely = moves_freely(flow);
         for field in 0..F {
             let mean = flow.energy_terms().convex_mean(field);
             let stiffness = flow.energy_terms().implicit_stiffness()[field];
@@ -98,7 +98,7 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
                 let exact = flow.derivative().minus_laplacian()[mode];
                 let difference = (2.0 * nodes * (std::f64::consts::PI * mode as f64 / nodes).sin()).powi(2);
                 let band = match field {
-                    0 if is_identity => (difference / (length * length)).powi(2),
+                    0 if moves_freely => (difference / (length * length)).powi(2),
                     _ => mobility_symbol(flow, field, difference, length),
                 };
                 let symbol = |mobility: f64, laplacian: f64| {
