@@ -77,7 +77,6 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
     /// Symbols of the diagonal block of `field` with mean coefficients: by second differences with the normal mobility
     /// left out unless it is surface diffusion or holds the curve, as in the band, and the right one.
     fn diagonal_symbols(
-        &self,
         flow: &GradientFlow,
         field: usize,
         mean: f64,
@@ -106,7 +105,7 @@ impl<const F: usize, const B: usize> LocalPart<F, B> {
                 let exact = flow.derivative().minus_laplacian()[mode];
                 let mass = self.mass[mode];
                 let difference = symbol_of_mass(mass, coarse);
-                let [band, right] = self.diagonal_symbols(flow, field, mean, gamma, [difference, exact]);
+                let [band, right] = Self::diagonal_symbols(flow, field, mean, gamma, [difference, exact]);
                 let mut power = if field == 0 { mass * mass } else { mass };
                 if self.is_surface_diffusion {
                     power *= mass;
