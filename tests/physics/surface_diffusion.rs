@@ -1,6 +1,6 @@
 //! Curves under surface diffusion that carry densities: solves of few Krylov iterations.
 
-use curveflow_tests::{assert_close, last, run, scene};
+use curveflow_tests::{assert_close, last, run, scene, shipped};
 
 /// Three uneven lobes with a density of the `mobility`, to t = 5: the energy there, the steps, and the Krylov iterations of a solve.
 fn three_lobes(mobility: &str, tolerance: &str) -> (f64, u64, f64) {
@@ -54,5 +54,16 @@ fn a_density_that_diffuses_takes_few_iterations() {
         let (energy, _, iterations) = three_lobes("diffusion", tolerance);
         assert_close(energy, 7.993, 1e-3);
         assert!(iterations < most, "{tolerance}: {iterations} iterations a solve");
+    }
+}
+
+/// … and while steps are short and the band of the curvature serves, it is not given up for that of the velocity, which took 666 at first.
+#[test]
+fn the_first_steps_of_fronts_take_few_iterations() {
+    for (end, most) in [("1e-3", 400), ("1.0", 2200)] {
+        let sets = [("flow.normal_mobility", "'surface-diffusion'"), ("time.end", end)];
+        let counters = run(&shipped("three_fold", &sets)).counters;
+        println!("to {end}: {} iterations", counters.krylov_iterations);
+        assert!(counters.krylov_iterations < most, "to {end}: {} iterations", counters.krylov_iterations);
     }
 }

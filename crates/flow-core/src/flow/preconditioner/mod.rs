@@ -40,6 +40,8 @@ pub enum LinearSolver {
     Banded,
     /// The same of all modes, at a higher cost.
     BandedOnAllNodes,
+    /// A band for the normal velocity where nodes slide, of surface diffusion with densities.
+    BandedOfVelocity,
     /// A dense factorisation of the exact operator, for few nodes.
     Dense,
 }
@@ -76,14 +78,19 @@ impl Preconditioner {
     pub fn new(kind: LinearSolver, flow: &GradientFlow) -> Self {
         let layout = flow.layout();
         let modes = flow.spectral_layout().modes();
-        let banded = matches!(kind, LinearSolver::Banded | LinearSolver::BandedOnAllNodes);
-        let motion = if banded && banded::exists(flow) { NormalMotion::of(flow) } else { None };
+        let moves = match kind {
+            LinearSolver::Banded => NormalMotion::is_needed(flow),
+            LinearSolver::BandedOfVelocity => true,
+            _ => false,
+        };
+        let moves = moves && banded::exists(flow);
+        let motion = moves.then(|| NormalMotion::of(flow)).flatten();
         let of_velocity = motion.is_some() || flow.layout().metric().is_some();
         let symbol = || FourierSymbol::new(layout, modes, of_velocity);
         let inverse = match kind {
             LinearSolver::Auto | LinearSolver::Fourier => FieldInverse::Fourier(symbol()),
-            LinearSolver::Banded | LinearSolver::BandedOnAllNodes => {
-                match banded::build(flow, kind == LinearSolver::BandedOnAllNodes) {
+            LinearSolver::Banded | LinearSolver::BandedOnAllNodes | LinearSolver::BandedOfVelocity => {
+                match banded::build(flow, motion.is_some(), kind == LinearSolver::BandedOnAllNodes) {
                     Some(banded) => FieldInverse::Banded(banded, symbol()),
                     None => FieldInverse::Fourier(symbol()),
                 }
@@ -110,8 +117,10 @@ impl Preconditioner {
     pub fn after(kind: LinearSolver, flow: &GradientFlow) -> Option<LinearSolver> {
         match kind {
             LinearSolver::Auto => banded::exists(flow).then_some(LinearSolver::Banded),
+            LinearSolver::Banded if NormalMotion::is_needed(flow) => None,
+            LinearSolver::Banded if NormalMotion::serves(flow) => Some(LinearSolver::BandedOfVelocity),
             LinearSolver::Banded => banded::leaves_modes(flow).then_some(LinearSolver::BandedOnAllNodes),
-            LinearSolver::Fourier | LinearSolver::BandedOnAllNodes | LinearSolver::Dense => None,
+            _ => None,
         }
     }
 

@@ -13,7 +13,7 @@ use crate::run::{Frame, Memory, ResumeError, Scene, Simulation, StepLog};
 pub(super) const MAGIC: &[u8; 8] = b"\x89CFCKPT\n";
 pub(super) const FOOTER: &[u8; 8] = b"CFCKEND\n";
 /// Changes when what the sections hold changes.
-pub(super) const VERSION: u32 = 12;
+pub(super) const VERSION: u32 = 13;
 const SECTIONS: usize = 5;
 
 /// A run that can go on.

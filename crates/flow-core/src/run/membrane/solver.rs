@@ -6,7 +6,8 @@ use crate::flow::{GradientFlow, LinearSolver, Preconditioner};
 
 /// Krylov iterations per solve, averaged, above which the automatic choice turns to the banded solver.
 const FOURIER_SERVES: f64 = 3.0;
-/// … and the banded one to a band that holds all modes, which costs more: fronts, whose high modes are small, need fewer.
+/// … and the banded one to a band of all modes, or of the normal velocity, which cost more: fronts, whose high modes are small, need fewer,
+/// and so do short steps.
 const BAND_SERVES: f64 = 20.0;
 /// Weight of the last solve in that average.
 const WEIGHT: f64 = 0.1;

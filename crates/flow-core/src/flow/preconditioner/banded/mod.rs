@@ -20,8 +20,6 @@ use reach::{diffuses, most_at_first};
 pub use reach::{exists, leaves_modes};
 use window::Window;
 
-use super::normal_motion::NormalMotion;
-
 use crate::flow::gradient_flow::GradientFlow;
 use crate::geometry::Complex64;
 use crate::operators::FactorisationError;
@@ -36,19 +34,22 @@ pub trait Banded: Debug + Send + Sync {
     fn apply(&mut self, spectra: &mut [Complex64]);
 }
 
-/// Builds the solver for the number of fields, up to four, and for all modes if it `holds_all`; none for more fields, and none on a
-/// handful of nodes.
-pub fn build(flow: &GradientFlow, holds_all: bool) -> Option<Box<dyn Banded>> {
-    let low = on_nodes(flow, most_at_first(flow));
+/// Builds the solver for the number of fields, up to four; for the normal velocity if it is `of_velocity`, as it always is on nodes that
+/// move with the curve; for all modes if it `holds_all`. None for more fields, and none on a handful of nodes.
+pub fn build(flow: &GradientFlow, of_velocity: bool, holds_all: bool) -> Option<Box<dyn Banded>> {
+    if of_velocity || flow.layout().metric().is_some() {
+        return on_nodes(flow, None);
+    }
+    let low = on_nodes(flow, Some(most_at_first(flow)));
     if !holds_all || !leaves_modes(flow) {
         return low;
     }
-    let both = low.zip(on_nodes(flow, usize::MAX));
+    let both = low.zip(on_nodes(flow, Some(usize::MAX)));
     both.map(|(low, all)| Box::new(AllModes::new(low, all)) as Box<dyn Banded>)
 }
 
-/// That on at most `most` equidistant nodes.
-fn on_nodes(flow: &GradientFlow, most: usize) -> Option<Box<dyn Banded>> {
+/// That of the curvature on at most so many equidistant nodes, or that of the normal velocity.
+fn on_nodes(flow: &GradientFlow, most: Option<usize>) -> Option<Box<dyn Banded>> {
     if !exists(flow) {
         return None;
     }
@@ -65,12 +66,11 @@ fn on_nodes(flow: &GradientFlow, most: usize) -> Option<Box<dyn Banded>> {
     }
 }
 
-/// That of `F` fields, with a band of half-width `B`; on equidistant nodes at most `most_nodes` of them.
-fn of_fields<const F: usize, const B: usize>(flow: &GradientFlow, most_nodes: usize) -> Box<dyn Banded> {
-    if flow.layout().metric().is_some() || NormalMotion::serves(flow) {
-        Box::new(MaterialPart::<F, B>::new(flow))
-    } else {
-        Box::new(LocalPart::<F, B>::new(flow, most_nodes))
+/// That of `F` fields, with a band of half-width `B`.
+fn of_fields<const F: usize, const B: usize>(flow: &GradientFlow, most: Option<usize>) -> Box<dyn Banded> {
+    match most {
+        Some(most) => Box::new(LocalPart::<F, B>::new(flow, most)),
+        None => Box::new(MaterialPart::<F, B>::new(flow)),
     }
 }
 

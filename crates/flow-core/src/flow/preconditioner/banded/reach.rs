@@ -1,6 +1,5 @@
 //! The flows that have a band.
 
-use super::super::normal_motion::NormalMotion;
 use crate::flow::gradient_flow::GradientFlow;
 
 /// Graded and co-moving nodes are crowded somewhere: fewer of them would miss what they crowd for.
@@ -31,7 +30,7 @@ pub fn most_at_first(flow: &GradientFlow) -> usize {
 /// Whether that band leaves modes to the symbol of which one of all modes exists.
 pub fn leaves_modes(flow: &GradientFlow) -> bool {
     let equidistant = flow.grading().is_none() && flow.layout().metric().is_none();
-    equidistant && exists(flow) && !NormalMotion::serves(flow) && flow.layout().nodes() > most_at_first(flow)
+    equidistant && exists(flow) && flow.layout().nodes() > most_at_first(flow)
 }
 
 /// Whether the normal mobility is that of surface diffusion, which widens the band.
