@@ -38,7 +38,7 @@ pub(super) fn flow(
     let diagnostics = Diagnostics::new(scene, initial, layout, &derivative)?;
     let energy = EnergySum::new(terms, layout, &grid, &derivative);
     let map = FlowMap::in_gauge(scene.flow.gauge.rule(), layout, &grid, &derivative);
-    let normal = normal_mobility(scene, &grid, &derivative);
+    let normal = normal_mobility(scene, initial.is_round, &grid, &derivative);
     let mobilities = density_mobilities(scene, &grid, &derivative)?;
     Ok((GradientFlow::new(map, energy, layout, normal, mobilities), diagnostics))
 }

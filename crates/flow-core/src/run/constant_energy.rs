@@ -129,7 +129,7 @@ fn kept(scene: &Scene) -> Option<(Kept, Vec<bool>)> {
     const NODES: usize = 32;
     let grid = PeriodicGrid::new(NODES);
     let derivative = Derivative::new(family(scene, false), &grid);
-    let curve = normal_mobility(scene, &grid, &derivative).keeps();
+    let curve = normal_mobility(scene, false, &grid, &derivative).keeps();
     let densities = density_mobilities(scene, &grid, &derivative).ok()?;
     Some((curve, densities.iter().map(|density| density.conserves_mass()).collect()))
 }

@@ -12,6 +12,8 @@ pub(super) struct Initial {
     pub length: f64,
     /// Enclosed area of the initial curve, on the grid.
     pub area: f64,
+    /// Whether it is a circle, run through once, as far as the tolerance goes.
+    pub is_round: bool,
     /// Terms from outside.
     pub own: OwnTerms,
 }

@@ -118,7 +118,8 @@ impl InitialState {
 
 /// Largest distance of nodes that the energies of positions allow on the initial curve.
 fn largest_spacing(scene: &Scene, length: f64, own: &OwnTerms) -> Result<f64, SetupError> {
-    let terms = energy_terms(scene, &Initial { length, area: 0.0, own: own.clone() }, FIRST_NODES)?;
+    let terms =
+        energy_terms(scene, &Initial { length, area: 0.0, is_round: false, own: own.clone() }, FIRST_NODES)?;
     let error = unresolved_bound(scene);
     Ok(terms.iter().map(|term| term.largest_spacing(length, error)).fold(f64::INFINITY, f64::min))
 }

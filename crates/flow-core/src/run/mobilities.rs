@@ -9,13 +9,10 @@ use crate::flow::{
 use crate::geometry::PeriodicGrid;
 use crate::operators::Derivative;
 
-/// Part of the tolerance that counts as no deviation from a circle where length and area are kept: such a curve can move by twice that, or,
-/// pushed by forces of high modes, by ten times as much.
-const ROUND: f64 = 0.05;
-
-/// The normal mobility of a scene.
+/// The normal mobility of a scene whose curve is at the start, and so for ever if length and area are kept, a circle if it `is_round`.
 pub fn normal_mobility(
     scene: &Scene,
+    is_round: bool,
     grid: &PeriodicGrid,
     derivative: &Derivative,
 ) -> Box<dyn NormalMobility> {
@@ -25,8 +22,7 @@ pub fn normal_mobility(
         scene::NormalMobility::Incompressible => Box::new(Incompressible::new(derivative, nodes)),
         scene::NormalMobility::AreaPreserving => Box::new(AreaPreserving),
         scene::NormalMobility::IncompressibleAreaPreserving => {
-            let deviation = ROUND * scene.accuracy.tolerance;
-            Box::new(IncompressibleAreaPreserving::new(derivative, nodes).holding_circles(deviation))
+            Box::new(IncompressibleAreaPreserving::new(derivative, nodes).holding(is_round))
         }
         scene::NormalMobility::SurfaceDiffusion => Box::new(SurfaceDiffusion::new(grid, derivative)),
     }

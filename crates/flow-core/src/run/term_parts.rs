@@ -42,7 +42,7 @@ impl TermParts {
         }
         if asked(OutputField::NormalVelocities) {
             for term in energy_terms(scene, initial, layout.nodes())? {
-                parts.flows.push((term.name(), flow_of(scene, term, layout, derivative, initial.area)));
+                parts.flows.push((term.name(), flow_of(scene, term, layout, derivative, initial)));
             }
         }
         Ok(parts)
@@ -82,14 +82,14 @@ fn flow_of(
     term: Box<dyn EnergyTerm>,
     layout: Layout,
     derivative: &Derivative,
-    area: f64,
+    initial: &Initial,
 ) -> GradientFlow {
     let grid = PeriodicGrid::new(layout.nodes());
     let energy = EnergySum::new(vec![term], layout, &grid, derivative);
     let map = FlowMap::in_gauge(scene.flow.gauge.rule(), layout, &grid, derivative);
-    let normal = normal_mobility(scene, &grid, derivative);
+    let normal = normal_mobility(scene, initial.is_round, &grid, derivative);
     let densities = (0..layout.densities()).map(|_| Box::new(Carried) as _).collect();
     let mut flow = GradientFlow::new(map, energy, layout, normal, densities);
-    flow.set_kept_area(area);
+    flow.set_kept_area(initial.area);
     flow
 }

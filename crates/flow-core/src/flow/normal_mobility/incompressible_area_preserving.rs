@@ -22,9 +22,9 @@ pub struct IncompressibleAreaPreserving {
     less: Vec<f64>,
     /// 1/⟨𝓘1, 1⟩, or 0 on a circle.
     inverse: f64,
-    /// ⟨𝓘1, 1⟩ up to which a curve that is run through once counts as a circle, which is held.
-    round: f64,
-    /// Whether it does.
+    /// Whether every curve counts as a circle that is run through once, which is held.
+    holds_all: bool,
+    /// Whether the one at hand does.
     holds: bool,
 }
 
@@ -39,20 +39,18 @@ impl IncompressibleAreaPreserving {
             image: vec![0.0; nodes],
             less: vec![0.0; nodes],
             inverse: 0.0,
-            round: ROUND,
+            holds_all: false,
             holds: false,
         }
     }
 
-    /// The same that takes a curve for a circle, and holds it, whose curvature varies by the part `deviation` of itself at most, in the
-    /// root mean square.
+    /// The same that holds the curve if it `holds_all`: one so near to a circle that it cannot go anywhere.
     ///
-    /// Length and area leave such a curve a sphere of about this radius about the circle, which the flow crosses the faster the
+    /// Length and area leave a curve that is nearly a circle a sphere about the circle, which the flow crosses the faster the
     /// smaller it is: where that is less than errors of the steps, they could but jump to and fro on it.
     #[must_use]
-    pub fn holding_circles(mut self, deviation: f64) -> Self {
-        self.round = deviation.powi(2).max(ROUND);
-        self
+    pub fn holding(self, holds_all: bool) -> Self {
+        Self { holds_all, ..self }
     }
 }
 
@@ -66,9 +64,8 @@ impl NormalMobility for IncompressibleAreaPreserving {
         // One that is run through more often has the area of other curves of its length as well.
         let turning_number = at.length() * at.mean(at.at_nodes(0)) / TAU;
         let once = (turning_number.abs() - 1.0).abs() < 0.5;
-        let round = if once { self.round } else { ROUND };
-        self.inverse = if square > round { 1.0 / square } else { 0.0 };
-        self.holds = once && self.inverse == 0.0;
+        self.holds = self.holds_all || once && square <= ROUND;
+        self.inverse = if square > ROUND && !self.holds { 1.0 / square } else { 0.0 };
         Ok(())
     }
 

@@ -201,7 +201,7 @@ fn scene_of(record: &Record) -> Option<Scene> {
 
 /// Whether a term acts on positions.
 fn has_shape_energy(scene: &Scene) -> bool {
-    let any = Initial { length: 1.0, area: 1.0, own: OwnTerms::default() };
+    let any = Initial { length: 1.0, area: 1.0, is_round: false, own: OwnTerms::default() };
     energy_terms(scene, &any, LEAST_NODES).is_ok_and(|terms| terms.iter().any(|term| term.has_shape_energy()))
 }
 
