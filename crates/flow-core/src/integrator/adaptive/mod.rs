@@ -259,7 +259,7 @@ impl<S: Stepper> Adaptive<S> {
     /// step is too large for a transient that the norm of the state does not see. In units of what is allowed.
     fn imbalance(&self, energy: f64, rounding: f64, integrals: [f64; INTEGRALS]) -> f64 {
         let dissipated = integrals[DISSIPATED] - self.stepper.integrals()[DISSIPATED];
-        let scale = self.scale.of(self.energy).max(self.scale.of(energy));
+        let scale = self.scale.with_loss(self.energy).max(self.scale.with_loss(energy));
         let allowed = IMBALANCE * self.options.energy_tolerance * scale + rounding;
         (energy - self.energy + dissipated).abs() / allowed.max(f64::MIN_POSITIVE)
     }
@@ -275,7 +275,7 @@ impl<S: Stepper> Adaptive<S> {
         let Finish::Good { energy, .. } = finish else { return false };
         let lost = (self.energy - energy).abs();
         // What is lost is known to rounding, which a constant of the motion makes larger than what matters.
-        let unseen = UNSEEN * self.options.energy_tolerance * self.scale.of(*energy);
+        let unseen = UNSEEN * self.options.energy_tolerance * self.scale.with_loss(*energy);
         let unseen = unseen.max(ENERGY_ROUNDING * energy.abs());
         self.rises(problem, *energy) || finish.dissipation() * size > ROUGH * lost + unseen
     }

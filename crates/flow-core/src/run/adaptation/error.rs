@@ -8,8 +8,9 @@ pub enum ResolutionError {
     /// The curvature.
     #[error(
         "at t = {time:.6e} even {nodes} nodes, the most, leave {part:.1e} of the curvature unresolved: finer nodes only show \
-         finer waves, as where compression or pressure meets no bending; add `energy.bending` or `energy.regularization`, or \
-         set `accuracy.nodes`, on which the result will depend"
+         finer waves, as where compression or pressure meets no bending, or a density that bends the curve separates and its slopes cost nothing, or \
+         a finer cusp, as where a loop shrinks under tension; add `energy.bending`, `energy.regularization` or, to `energy.local`, a \
+         cost of slopes (0.5*c*rho_sigma^2, rho the name of the density), or set `accuracy.nodes`, on which the result will depend"
     )]
     Curvature { time: f64, nodes: usize, part: f64 },
     /// A density.

@@ -142,7 +142,7 @@ impl Adaptation {
         let (layout, family) = (membrane.layout(), self.family(membrane));
         let resolved = part <= self.bound;
         let equidistant = self.fewest_equidistant(membrane, state);
-        let least = equidistant * sparsest(membrane.flow().grading());
+        let least = equidistant * sparsest_in(membrane, state);
         let resolved = resolved && mesh.nodes as f64 >= least;
         let margin = match (resolved, self.grades) {
             (false, _) => MARGIN_OF_MORE,
@@ -201,7 +201,21 @@ impl Adaptation {
 
 /// The largest distance of nodes, in that of as many equidistant ones.
 fn sparsest(grading: Option<&Arc<Grading>>) -> f64 {
-    grading.map_or(1.0, |grading| grading.weight().iter().copied().fold(0.0, f64::max))
+    grading.map_or(1.0, |grading| largest(grading.weight()))
+}
+
+/// The same in the spectral `state`, whose metric may be a field.
+fn sparsest_in(membrane: &mut Membrane, state: &[f64]) -> f64 {
+    let (layout, flow) = (membrane.layout(), membrane.flow());
+    let Some(metric) = layout.metric() else { return sparsest(flow.grading()) };
+    let spectral = SpectralLayout::new(layout);
+    let mut values = vec![0.0; layout.nodes()];
+    flow.grid_mut().synthesise(&spectral.spectra(state)[spectral.spectrum(metric)], &mut values);
+    largest(&values) / state[spectral.length_index()]
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(0.0, f64::max)
 }
 
 /// The mesh with other nodes at the same parameters.
