@@ -15,6 +15,7 @@ mod failure;
 mod floors;
 mod frame_nodes;
 mod gauges;
+mod held_circle;
 mod initial_state;
 mod interpolant;
 mod invariants;

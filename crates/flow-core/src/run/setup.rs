@@ -8,6 +8,7 @@ use super::choices::{linear_solver, shape};
 use super::diagnostics::Diagnostics;
 use super::energy_terms::Initial;
 use super::gauges::Gauges;
+use super::held_circle::{is_held, is_nearly_round};
 use super::initial_state::InitialState;
 use super::limits;
 use super::membrane::Membrane;
@@ -74,8 +75,11 @@ impl Setup {
             InitialState::of(scene, &curve, &own)?;
         let layout = layout(scene, mesh.nodes);
         let area = area(&state, layout, &curve, grading.clone());
-        let is_round = is_round(&curve, scene.accuracy.tolerance);
-        let initial = Initial { length: initial_length, area, is_round, own };
+        let mut initial = Initial { length: initial_length, area, is_round: false, own };
+        if is_nearly_round(scene, &curve) {
+            let (mut free, _) = flow(scene, &initial, mesh.nodes, grading.clone())?;
+            initial.is_round = is_held(&mut free, &state, scene, &curve);
+        }
         let (mut flow, diagnostics) = flow(scene, &initial, mesh.nodes, grading)?;
         check_names(flow.energy_terms().names())?;
         if initial.own.exist() {
@@ -102,18 +106,6 @@ impl Setup {
             densities: scene.density.iter().map(|density| density.name.clone()).collect(),
         })
     }
-}
-
-/// Part of the tolerance by which the curvature of a circle may vary, in the root mean square: of kept length and area, such a curve can move by
-/// twice that, or, pushed by forces of high modes, by several times as much.
-const ROUND: f64 = 0.22;
-
-/// Whether `curve` is a circle, run through once, as far as `tolerance` goes.
-fn is_round(curve: &Resampled, tolerance: f64) -> bool {
-    let radius = curve.length / std::f64::consts::TAU;
-    let deviation = |kappa: &f64| (kappa * radius - 1.0).powi(2);
-    let square = curve.curvature.iter().map(deviation).sum::<f64>() / curve.curvature.len() as f64;
-    curve.turning_number == 1 && square <= (ROUND * tolerance).powi(2)
 }
 
 /// Area enclosed by the closed initial curve, as the energies measure it.

@@ -111,7 +111,7 @@ impl GradientFlow {
             velocity: vec![0.0; layout.nodes()],
             spectrum: vec![Complex64::default(); layout.modes()],
         };
-        let tension = FrozenTension::new(layout, &energy, descent.carries_over_nodes());
+        let tension = FrozenTension::new(&descent, &energy, &*normal_mobility);
         Self {
             energy,
             descent,

@@ -3,8 +3,9 @@
 use super::{Descent, GradientFlow};
 use crate::flow::energy_sum::EnergySum;
 use crate::flow::intrinsic_gradient::IntrinsicGradient;
+use crate::flow::normal_mobility::NormalMobility;
+use crate::geometry::Complex64;
 use crate::geometry::vectors::{add_product, add_scaled, mean, shift};
-use crate::geometry::{Complex64, Layout};
 
 /// The tension at a linearisation.
 #[derive(Debug)]
@@ -22,15 +23,19 @@ pub struct FrozenTension {
 }
 
 impl FrozenTension {
-    /// For states of `layout` with this `energy`, some density of which is only carried along over the nodes if the flow `carries` one.
-    pub fn new(layout: Layout, energy: &EnergySum, carries: bool) -> Self {
+    /// For states of `descent` with this `energy` under the normal `mobility`.
+    pub fn new(descent: &Descent, energy: &EnergySum, mobility: &dyn NormalMobility) -> Self {
+        let layout = descent.layout;
         let room = |size: usize, needed: bool| if needed { size } else { 0 };
-        let (nodes, positions) = (layout.nodes(), energy.depends_on_positions());
+        let (nodes, positions, kept) = (layout.nodes(), energy.depends_on_positions(), mobility.keeps());
         let spectra = room(layout.state_fields() * layout.modes(), positions);
         let held = IntrinsicGradient { spectra: vec![Complex64::default(); spectra], by_length: 0.0 };
+        let by_positions = positions && !energy.is_of_positions_alone();
+        // Where an area is held, the force at rest is a pressure, and densities that bend the curve against it make the tension vary.
+        let by_densities = !positions && layout.densities() > 0 && kept.area && !kept.length;
         // Nodes that only move along the normal have no tension of W.
-        let moves = positions && !energy.is_of_positions_alone() && layout.metric().is_none();
-        let slopes = vec![0.0; room(layout.fields() * nodes, moves || carries)];
+        let changes = layout.metric().is_none() && (by_positions || by_densities);
+        let slopes = vec![0.0; room(layout.fields() * nodes, changes || descent.carries_over_nodes())];
         Self { stretching: vec![0.0; nodes], slopes, mean: 0.0, holding: vec![0.0; nodes], held }
     }
 }

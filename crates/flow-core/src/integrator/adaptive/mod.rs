@@ -259,7 +259,9 @@ impl<S: Stepper> Adaptive<S> {
     /// step is too large for a transient that the norm of the state does not see. In units of what is allowed.
     fn imbalance(&self, energy: f64, rounding: f64, integrals: [f64; INTEGRALS]) -> f64 {
         let dissipated = integrals[DISSIPATED] - self.stepper.integrals()[DISSIPATED];
-        let scale = self.scale.with_loss(self.energy).max(self.scale.with_loss(energy));
+        let scale = self.scale.of(self.energy).max(self.scale.of(energy));
+        // What is left of the energy may pass through zero, but not what is lost at this rate in a time as long as that so far.
+        let scale = scale.max(dissipated * (1.0 + self.stepper.time() / self.stepper.step_size()));
         let allowed = IMBALANCE * self.options.energy_tolerance * scale + rounding;
         (energy - self.energy + dissipated).abs() / allowed.max(f64::MIN_POSITIVE)
     }
@@ -275,7 +277,7 @@ impl<S: Stepper> Adaptive<S> {
         let Finish::Good { energy, .. } = finish else { return false };
         let lost = (self.energy - energy).abs();
         // What is lost is known to rounding, which a constant of the motion makes larger than what matters.
-        let unseen = UNSEEN * self.options.energy_tolerance * self.scale.with_loss(*energy);
+        let unseen = UNSEEN * self.options.energy_tolerance * self.scale.of(*energy);
         let unseen = unseen.max(ENERGY_ROUNDING * energy.abs());
         self.rises(problem, *energy) || finish.dissipation() * size > ROUGH * lost + unseen
     }

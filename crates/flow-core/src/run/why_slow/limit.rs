@@ -188,6 +188,12 @@ fn largest_part(why: &WhySlow) -> String {
 }
 
 fn implicit_solves(why: &WhySlow) -> String {
+    if why.krylov_iterations_per_solve <= MANY_ITERATIONS {
+        return format!(
+            "{} implicit solves failed, though not for their linear systems: {:.1} Krylov iterations each",
+            why.rejections.solver, why.krylov_iterations_per_solve
+        );
+    }
     format!(
         "the implicit solves are hard: {:.1} Krylov iterations each, and {} of them failed",
         why.krylov_iterations_per_solve, why.rejections.solver
@@ -205,6 +211,12 @@ fn has_shape_energy(scene: &Scene) -> bool {
     energy_terms(scene, &any, LEAST_NODES).is_ok_and(|terms| terms.iter().any(|term| term.has_shape_energy()))
 }
 
+/// Whether a term has an epsilon, which sets the width of fronts or the stiffness of a membrane.
+fn has_fronts(scene: &Scene) -> bool {
+    let energy = &scene.energy;
+    energy.agents.is_some() || energy.membrane.is_some() || energy.packing.is_some()
+}
+
 /// What makes the linear systems of a scene easier.
 fn easier_solves(record: &Record) -> &'static str {
     let smaller = "a smaller accuracy.tolerance: shorter steps are easier to solve";
@@ -216,7 +228,8 @@ fn easier_solves(record: &Record) -> &'static str {
         (MetricRole::Graded, _) if scene.flow.grading.is_some() => {
             "a weaker flow.grading, or gauge = \"scaled-arc-length\""
         }
-        (MetricRole::Graded, _) => "gauge = \"scaled-arc-length\", or a larger epsilon",
+        (MetricRole::Graded, _) if has_fronts(&scene) => "gauge = \"scaled-arc-length\", or a larger epsilon",
+        (MetricRole::Graded, _) => "gauge = \"scaled-arc-length\"",
         (_, LinearSolver::Fourier) => "accuracy.linear_solver = \"auto\"",
         (_, LinearSolver::Auto | LinearSolver::Banded)
             if record.nodes() <= 128 && has_shape_energy(&scene) =>

@@ -1,0 +1,87 @@
+//! Curves so near to a circle that length and area, which are kept, hold them. See `THEORY.md`, eq. (F10).
+
+use std::f64::consts::TAU;
+
+use super::scene::{NormalMobility, Scene};
+use crate::flow::GradientFlow;
+use crate::geometry::shapes::Resampled;
+
+/// Part of the tolerance by which the curvature of a held curve may vary, in the root mean square: it could move by twice that.
+const ROUND: f64 = 0.22;
+/// … and by which it would vary where the force takes the curve: what it has left of an area makes more of it in high modes.
+const DRIVEN: f64 = 1.2;
+
+/// Whether the curve of `scene`, whose length and area are kept, is nearly a circle, run through once.
+pub(super) fn is_nearly_round(scene: &Scene, curve: &Resampled) -> bool {
+    scene.flow.normal_mobility == NormalMobility::IncompressibleAreaPreserving
+        && curve.turning_number == 1
+        && deviation(curve) <= ROUND * scene.accuracy.tolerance
+}
+
+/// Whether such a curve counts as a circle, where it is and where its force would take it: `flow` is free to move it from the spectral `state`.
+pub(super) fn is_held(flow: &mut GradientFlow, state: &[f64], scene: &Scene, curve: &Resampled) -> bool {
+    flow.spectral_dissipation(state);
+    let weight = flow.current().weight().map_or_else(|| vec![1.0; curve.curvature.len()], <[f64]>::to_vec);
+    // Of the area that is left, κ_m² = (m² − 1)/3 of that of an ellipse in the mode m.
+    let driven =
+        deviation(curve) * ((mean_square_mode(flow.normal_force(), &weight) - 1.0) / 3.0).max(1.0).sqrt();
+    driven <= DRIVEN * scene.accuracy.tolerance
+}
+
+/// Root mean square of the deviation of the curvature from that of the circle of the same length, as a part of it.
+fn deviation(curve: &Resampled) -> f64 {
+    let radius = curve.length / TAU;
+    let square = curve.curvature.iter().map(|kappa| (kappa * radius - 1.0).powi(2)).sum::<f64>();
+    (square / curve.curvature.len() as f64).sqrt()
+}
+
+/// Mean of m² over the modes m of `force`, by their squares, without the modes 0 and 1, which do not change the shape of a circle; the distances of the
+/// nodes are as `weight`. Zero without other modes.
+fn mean_square_mode(force: &[f64], weight: &[f64]) -> f64 {
+    let whole: f64 = weight.iter().sum();
+    let mut place = 0.0;
+    let places: Vec<f64> = weight
+        .iter()
+        .map(|weight| {
+            let at = place;
+            place += TAU * weight / whole;
+            at
+        })
+        .collect();
+    let mut rest = force.to_vec();
+    for (wave, square) in [(None, 1.0), (Some(f64::cos as fn(f64) -> f64), 0.5), (Some(f64::sin), 0.5)] {
+        let wave = |place: f64| wave.map_or(1.0, |wave| wave(place));
+        let terms = rest.iter().zip(&places).zip(weight);
+        let part =
+            terms.map(|((rest, place), weight)| weight * rest * wave(*place)).sum::<f64>() / (square * whole);
+        rest.iter_mut().zip(&places).for_each(|(rest, place)| *rest -= part * wave(*place));
+    }
+    let mass: f64 = rest.iter().zip(weight).map(|(rest, weight)| weight / whole * rest * rest).sum();
+    let next = rest.iter().skip(1).chain(rest.first());
+    let slopes: f64 = rest
+        .iter()
+        .zip(next)
+        .zip(weight)
+        .map(|((rest, next), weight)| (next - rest).powi(2) * whole / (TAU * TAU * weight))
+        .sum();
+    if mass > 0.0 { slopes / mass } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn modes_are_counted_without_those_that_move_a_circle_as_a_whole() {
+        let graded = |i: f64| 1.0 + 0.3 * (TAU * i / 256.0).cos();
+        for weight in [vec![1.0; 256], (0..256).map(|i| graded(f64::from(i))).collect::<Vec<f64>>()] {
+            let whole: f64 = weight.iter().sum();
+            let places = (0..256).map(|i| TAU * weight[..i].iter().sum::<f64>() / whole);
+            let force: Vec<f64> =
+                places.map(|x| 5.0 + 3.0 * x.cos() - x.sin() + 0.1 * (7.0 * x).cos()).collect();
+            let found = mean_square_mode(&force, &weight);
+            assert!((found / 49.0 - 1.0).abs() < 0.3, "{found}");
+        }
+        assert_eq!(mean_square_mode(&[0.0; 8], &[1.0; 8]), 0.0);
+    }
+}
