@@ -34,6 +34,9 @@ pub struct Adaptive<S> {
     counters: Counters,
 }
 
+/// Part of the time so far whose loss, at the rate of the step, is a scale of the energy at least: less than what is left of an energy that
+/// falls as the inverse third power of the time, as a stiff cost does.
+const PASSING: f64 = 0.3;
 /// Changes by more than this part of the energy are not its rounding.
 const PLAIN: f64 = 1e-4;
 /// A dissipation that would lose this many times the energy that the step lost is an error of the solve.
@@ -260,8 +263,9 @@ impl<S: Stepper> Adaptive<S> {
     fn imbalance(&self, energy: f64, rounding: f64, integrals: [f64; INTEGRALS]) -> f64 {
         let dissipated = integrals[DISSIPATED] - self.stepper.integrals()[DISSIPATED];
         let scale = self.scale.of(self.energy).max(self.scale.of(energy));
-        // What is left of the energy may pass through zero, but not what is lost at this rate in a time as long as that so far.
-        let scale = scale.max(dissipated * (1.0 + self.stepper.time() / self.stepper.step_size()));
+        // What is left of the energy may pass through zero, but not what is lost at this rate in a time like that so far.
+        let times = 1.0 + self.stepper.time() / self.stepper.step_size();
+        let scale = scale.max(PASSING * times * (self.energy - energy));
         let allowed = IMBALANCE * self.options.energy_tolerance * scale + rounding;
         (energy - self.energy + dissipated).abs() / allowed.max(f64::MIN_POSITIVE)
     }
