@@ -4,7 +4,7 @@ use super::super::energy_terms::{Initial, energy_terms};
 use super::super::own_terms::OwnTerms;
 use super::super::record::{Record, StopReason};
 use super::super::resolution::LEAST_NODES;
-use super::super::scene::{LinearSolver, Scene};
+use super::super::scene::{DensityMobility, LinearSolver, Scene};
 use super::super::warnings::doubts;
 use super::{Spending, WhySlow};
 use crate::flow::MetricRole;
@@ -221,7 +221,11 @@ fn has_fronts(scene: &Scene) -> bool {
 fn easier_solves(record: &Record) -> &'static str {
     let smaller = "a smaller accuracy.tolerance: shorter steps are easier to solve";
     let Some(scene) = scene_of(record) else { return smaller };
+    let carries = scene.density.iter().any(|density| density.mobility == DensityMobility::Carried);
     match (scene.flow.gauge.metric(), scene.accuracy.linear_solver) {
+        (MetricRole::Uniform | MetricRole::Graded, _) if carries => {
+            "flow.gauge = \"co-moving\": a density with mobility = \"none\" stays on its nodes there"
+        }
         (MetricRole::Field, _) => {
             "a [[flow.switch]] to gauge = \"scaled-arc-length\" before the flow comes to rest"
         }
