@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use super::scene::{NormalMobility, Scene};
 use crate::flow::GradientFlow;
 use crate::geometry::shapes::Resampled;
+use crate::geometry::vectors::{add_scaled, mean_of_triple_product, sum};
 
 /// Part of the tolerance by which the curvature of a held curve may vary, in the root mean square: it could move by twice that.
 const ROUND: f64 = 0.22;
@@ -38,32 +39,25 @@ fn deviation(curve: &Resampled) -> f64 {
 /// Mean of m² over the modes m of `force`, by their squares, without the modes 0 and 1, which do not change the shape of a circle; the distances of the
 /// nodes are as `weight`. Zero without other modes.
 fn mean_square_mode(force: &[f64], weight: &[f64]) -> f64 {
-    let whole: f64 = weight.iter().sum();
-    let mut place = 0.0;
-    let places: Vec<f64> = weight
-        .iter()
-        .map(|weight| {
-            let at = place;
-            place += TAU * weight / whole;
-            at
-        })
-        .collect();
+    let whole = sum(weight);
+    let places = weight.iter().scan(0.0, |next, weight| {
+        let place = *next;
+        *next += TAU * weight / whole;
+        Some(place)
+    });
+    let places: Vec<f64> = places.collect();
     let mut rest = force.to_vec();
-    for (wave, square) in [(None, 1.0), (Some(f64::cos as fn(f64) -> f64), 0.5), (Some(f64::sin), 0.5)] {
-        let wave = |place: f64| wave.map_or(1.0, |wave| wave(place));
-        let terms = rest.iter().zip(&places).zip(weight);
+    for wave in [|_| 1.0, f64::cos, f64::sin] {
+        let wave: Vec<f64> = places.iter().copied().map(wave).collect();
         let part =
-            terms.map(|((rest, place), weight)| weight * rest * wave(*place)).sum::<f64>() / (square * whole);
-        rest.iter_mut().zip(&places).for_each(|(rest, place)| *rest -= part * wave(*place));
+            mean_of_triple_product(weight, &rest, &wave) / mean_of_triple_product(weight, &wave, &wave);
+        add_scaled(&mut rest, -part, &wave);
     }
-    let mass: f64 = rest.iter().zip(weight).map(|(rest, weight)| weight / whole * rest * rest).sum();
+    let mass = mean_of_triple_product(weight, &rest, &rest);
     let next = rest.iter().skip(1).chain(rest.first());
-    let slopes: f64 = rest
-        .iter()
-        .zip(next)
-        .zip(weight)
-        .map(|((rest, next), weight)| (next - rest).powi(2) * whole / (TAU * TAU * weight))
-        .sum();
+    let steps = rest.iter().zip(next).zip(weight);
+    let slopes: f64 = steps.map(|((rest, next), weight)| (next - rest).powi(2) / weight).sum();
+    let slopes = slopes * whole * whole / (TAU * TAU * weight.len() as f64);
     if mass > 0.0 { slopes / mass } else { 0.0 }
 }
 

@@ -78,12 +78,11 @@ impl Preconditioner {
     pub fn new(kind: LinearSolver, flow: &GradientFlow) -> Self {
         let layout = flow.layout();
         let modes = flow.spectral_layout().modes();
-        let moves = match kind {
-            LinearSolver::Banded => NormalMotion::is_needed(flow),
-            LinearSolver::BandedOfVelocity => true,
-            _ => false,
+        let kind = match kind {
+            LinearSolver::Banded if NormalMotion::is_needed(flow) => LinearSolver::BandedOfVelocity,
+            kind => kind,
         };
-        let moves = moves && banded::exists(flow);
+        let moves = kind == LinearSolver::BandedOfVelocity && banded::exists(flow);
         let motion = moves.then(|| NormalMotion::of(flow)).flatten();
         let of_velocity = motion.is_some() || flow.layout().metric().is_some();
         let symbol = || FourierSymbol::new(layout, modes, of_velocity);

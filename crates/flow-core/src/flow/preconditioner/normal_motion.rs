@@ -54,7 +54,7 @@ impl NormalMotion {
     /// Whether it does so from the first band on: densities that are only carried keep the errors of other solves.
     #[must_use]
     pub fn is_needed(flow: &GradientFlow) -> bool {
-        Self::serves(flow) && flow.density_mobilities().iter().any(|mobility| mobility.is_zero())
+        Self::serves(flow) && flow.carries_over_nodes()
     }
 
     /// For the states of `flow`; none but for surface diffusion of a curve with densities, over nodes that are not material.
