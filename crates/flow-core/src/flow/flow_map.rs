@@ -197,6 +197,22 @@ impl FlowMap {
         length_rate
     }
 
+    /// W at the flux points for the normal velocity `v`; zero where nodes are material.
+    pub fn set_sliding(&mut self, at: &CurveFields, v: &[f64], sliding: &mut [f64]) {
+        self.at_hand = false;
+        if self.gauge.set_tangential(&mut self.work, at, v) {
+            sliding.copy_from_slice(&self.work.tangential);
+        } else {
+            sliding.fill(0.0);
+        }
+    }
+
+    /// Adds ∂_s(φW) to the spectrum `rate`, of a nodal `field` φ and the W of [`FlowMap::set_sliding`].
+    pub fn add_transport(&mut self, field: &[f64], sliding: &[f64], rate: &mut [Complex64]) {
+        self.at_hand = false;
+        self.work.add_transport(field, sliding, rate);
+    }
+
     /// Adds −`Δ_s`V to the rate of the curvature.
     fn complete_rates(&mut self, at: &CurveFields, v: &[f64], rates: &mut [Complex64]) {
         let Workspace { grid, derivative, graded, spectrum, .. } = &mut self.work;

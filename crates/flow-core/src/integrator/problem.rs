@@ -111,6 +111,11 @@ pub trait Problem {
     fn forgets(&self) -> bool {
         true
     }
+    /// The highest frequency of J at the linearisation that nothing damps, as that of waves that are only carried along: the formulas of
+    /// higher order multiply these unless steps are short for them.
+    fn undamped_frequency(&self) -> f64 {
+        0.0
+    }
     /// Energy that the rounding of the state finished last may add or take away, where the energy itself is near zero.
     fn energy_rounding(&self, _y: &[f64]) -> f64 {
         0.0

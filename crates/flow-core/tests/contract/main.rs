@@ -1,6 +1,7 @@
 //! The laws of the discrete structure, each tested on every energy term with every derivative family.
 
 mod adaptive;
+mod carried_densities;
 mod closure_kernel;
 mod combinations;
 mod cyclic_banded;

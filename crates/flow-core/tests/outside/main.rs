@@ -11,6 +11,7 @@ mod slopes;
 mod stiff_length;
 mod undeclared;
 mod uniform;
+mod waves;
 
 use std::sync::Arc;
 

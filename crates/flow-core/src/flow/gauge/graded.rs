@@ -19,20 +19,9 @@ impl Gauge for Graded {
     }
 
     fn rates(&self, work: &mut Workspace, at: &CurveFields, v: &[f64], rates: &mut [Complex64]) -> f64 {
-        let grading = grading(at);
-        let length = at.length();
-        multiply_into(&mut work.product, at.at_nodes(0), v);
-        let stretch = mean_of_product(grading.weight(), &work.product);
-        work.product.iter_mut().for_each(|product| *product -= stretch);
-        multiply(&mut work.product, grading.weight());
-        work.grid.transform(&work.product, &mut work.spectrum);
-        // D₋W = w(−|Γ|κV + mean), with D₋ = −conj(D₊).
-        multiply_by_conjugate(&mut work.spectrum, length, work.derivative.inverse_to_flux());
-        work.grid.synthesise(&work.spectrum, &mut work.tangential);
-        let mean = mean_of_product(grading.at_midpoints(), &work.tangential) / grading.midpoint_mean();
-        work.tangential.iter_mut().for_each(|w| *w -= mean);
+        self.set_tangential(work, at, v);
         work.transport(at, rates);
-        length * stretch
+        work.length_rate
     }
 
     /// Z − ⟨wZ⟩ − π of (F3): what a stretched piece loses, minus its tension.
@@ -56,6 +45,23 @@ impl Gauge for Graded {
     fn change_of_stretching(&self, work: &mut Workspace, at: &CurveFields, out: &mut [f64]) -> bool {
         integrate_product(work, grading(at));
         out.copy_from_slice(&work.values);
+        true
+    }
+
+    fn set_tangential(&self, work: &mut Workspace, at: &CurveFields, v: &[f64]) -> bool {
+        let grading = grading(at);
+        let length = at.length();
+        multiply_into(&mut work.product, at.at_nodes(0), v);
+        let stretch = mean_of_product(grading.weight(), &work.product);
+        work.length_rate = length * stretch;
+        work.product.iter_mut().for_each(|product| *product -= stretch);
+        multiply(&mut work.product, grading.weight());
+        work.grid.transform(&work.product, &mut work.spectrum);
+        // D₋W = w(−|Γ|κV + mean), with D₋ = −conj(D₊).
+        multiply_by_conjugate(&mut work.spectrum, length, work.derivative.inverse_to_flux());
+        work.grid.synthesise(&work.spectrum, &mut work.tangential);
+        let mean = mean_of_product(grading.at_midpoints(), &work.tangential) / grading.midpoint_mean();
+        work.tangential.iter_mut().for_each(|w| *w -= mean);
         true
     }
 

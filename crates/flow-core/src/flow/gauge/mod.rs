@@ -82,6 +82,11 @@ pub trait Gauge: Debug + Send + Sync {
         false
     }
 
+    /// W at the flux points into `work.tangential`, and the rate of the length; false where nodes are material.
+    fn set_tangential(&self, _work: &mut Workspace, _at: &CurveFields, _v: &[f64]) -> bool {
+        false
+    }
+
     /// W at the nodes (by the Fourier derivative in every family: it places the curve, it does not enter the energy).
     ///
     /// # Shapes

@@ -15,7 +15,7 @@ impl Gauge for ScaledArcLength {
     }
 
     fn rates(&self, work: &mut Workspace, at: &CurveFields, v: &[f64], rates: &mut [Complex64]) -> f64 {
-        set_tangential(work, at, v);
+        self.set_tangential(work, at, v);
         work.transport(at, rates);
         work.length_rate
     }
@@ -54,9 +54,20 @@ impl Gauge for ScaledArcLength {
         true
     }
 
+    fn set_tangential(&self, work: &mut Workspace, at: &CurveFields, v: &[f64]) -> bool {
+        let length = at.length();
+        multiply_into(&mut work.product, at.at_nodes(0), v);
+        work.grid.transform(&work.product, &mut work.spectrum);
+        work.length_rate = length * work.spectrum[0].re;
+        // D₋W = −|Γ|κV + mean, with D₋ = −conj(D₊).
+        multiply_by_conjugate(&mut work.spectrum, length, work.derivative.inverse_to_flux());
+        work.grid.synthesise(&work.spectrum, &mut work.tangential);
+        true
+    }
+
     fn tangential_velocity(&self, work: &mut Workspace, at: &CurveFields, v: &[f64], w: &mut [f64]) {
         if flux_points_are_nodes(work) {
-            set_tangential(work, at, v);
+            self.set_tangential(work, at, v);
             return w.copy_from_slice(&work.tangential);
         }
         multiply_into(&mut work.product, at.at_nodes(0), v);
@@ -70,15 +81,4 @@ impl Gauge for ScaledArcLength {
 /// Whether D₊ is the derivative at the nodes, that of Fourier.
 fn flux_points_are_nodes(work: &Workspace) -> bool {
     work.derivative.interpolation().is_none()
-}
-
-/// W at the flux points, and the rate of the length.
-fn set_tangential(work: &mut Workspace, at: &CurveFields, v: &[f64]) {
-    let length = at.length();
-    multiply_into(&mut work.product, at.at_nodes(0), v);
-    work.grid.transform(&work.product, &mut work.spectrum);
-    work.length_rate = length * work.spectrum[0].re;
-    // D₋W = −|Γ|κV + mean, with D₋ = −conj(D₊).
-    multiply_by_conjugate(&mut work.spectrum, length, work.derivative.inverse_to_flux());
-    work.grid.synthesise(&work.spectrum, &mut work.tangential);
 }

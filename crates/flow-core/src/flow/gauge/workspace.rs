@@ -1,8 +1,10 @@
 //! What gauges work with on one grid.
 
+use bytemuck::{cast_slice, cast_slice_mut};
+
 use crate::flow::curve_fields::CurveFields;
 use crate::geometry::vectors::{
-    add_product, apply_symbol, multiply_by, multiply_by_conjugate, multiply_into,
+    add_product, add_scaled, apply_symbol, multiply_by, multiply_by_conjugate, multiply_into,
 };
 use crate::geometry::{Complex64, Layout, PeriodicGrid};
 use crate::operators::{Derivative, GradedLaplacian};
@@ -90,15 +92,30 @@ impl Workspace {
         let nodes = self.layout.nodes();
         self.product.fill(0.0);
         for (motion, slopes) in motion.chunks_exact(nodes).zip(slopes.chunks_exact(nodes)) {
-            let Some(interpolation) = self.derivative.interpolation() else {
+            if self.interpolate(motion) {
+                add_product(&mut self.product, &self.values, slopes);
+            } else {
                 add_product(&mut self.product, motion, slopes);
-                continue;
-            };
-            self.grid.transform(motion, &mut self.spectrum);
-            multiply_by(&mut self.spectrum, interpolation);
-            self.grid.synthesise(&self.spectrum, &mut self.values);
-            add_product(&mut self.product, &self.values, slopes);
+            }
         }
+    }
+
+    /// Adds ∂_s(φW) to `rate`, of the nodal `field` φ and the values of W at the flux points.
+    pub fn add_transport(&mut self, field: &[f64], tangential: &[f64], rate: &mut [Complex64]) {
+        let at_flux_points = if self.interpolate(field) { &self.values } else { field };
+        multiply_into(&mut self.product, at_flux_points, tangential);
+        self.grid.transform(&self.product, &mut self.spectrum);
+        multiply_by_conjugate(&mut self.spectrum, -1.0, self.derivative.to_flux());
+        add_scaled(cast_slice_mut(rate), 1.0, cast_slice(&self.spectrum));
+    }
+
+    /// The nodal `field` at the flux points, into `values`; false where these are the nodes.
+    fn interpolate(&mut self, field: &[f64]) -> bool {
+        let Some(interpolation) = self.derivative.interpolation() else { return false };
+        self.grid.transform(field, &mut self.spectrum);
+        multiply_by(&mut self.spectrum, interpolation);
+        self.grid.synthesise(&self.spectrum, &mut self.values);
+        true
     }
 
     /// Z of D₊Z = `product` less its mean, into `values`; with mean zero.

@@ -13,14 +13,15 @@ impl GradientFlow {
         self.descent.write_rates(&self.frozen.fields, out);
     }
 
-    /// Product of the implicit operator with the spectral `v`: −𝓚 Hess `𝓕_h` at the linearisation, and what the tension there
-    /// does to a change of the curvature.
+    /// Product of the implicit operator with the spectral `v`: −𝓚 Hess `𝓕_h` at the linearisation, what the tension there does to a
+    /// change of the curvature, and the transport of densities that are only carried along.
     ///
     /// # Panics
     /// Before [`GradientFlow::spectral_linearise`].
     pub fn implicit_product(&mut self, v: &[f64], out: &mut [f64]) {
         self.implicit_velocity(v);
         self.descent.write_rates(&self.frozen.fields, out);
+        self.add_sliding(out);
     }
 
     /// The normal velocity of that product, at [`GradientFlow::normal_velocity`], and the gradient that goes with it.

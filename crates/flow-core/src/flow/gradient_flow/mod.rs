@@ -6,6 +6,7 @@ mod implicit;
 mod not_finite;
 mod part_costs;
 mod parts;
+mod sliding;
 mod slopes;
 mod tension;
 mod turning;
@@ -20,6 +21,7 @@ use super::intrinsic_gradient::IntrinsicGradient;
 use super::normal_mobility::NormalMobility;
 use crate::geometry::{Complex64, Layout};
 
+use sliding::FrozenSliding;
 use tension::FrozenTension;
 
 pub use derivative_check::DerivativeErrors;
@@ -76,6 +78,8 @@ pub struct GradientFlow {
     linearised: bool,
     /// The tension at the linearisation.
     tension: FrozenTension,
+    /// How the nodes slide there.
+    sliding: FrozenSliding,
 }
 
 impl GradientFlow {
@@ -112,6 +116,7 @@ impl GradientFlow {
             spectrum: vec![Complex64::default(); layout.modes()],
         };
         let tension = FrozenTension::new(&descent, &energy, &*normal_mobility);
+        let sliding = FrozenSliding::new(&descent, &*normal_mobility);
         Self {
             energy,
             descent,
@@ -119,6 +124,7 @@ impl GradientFlow {
             frozen,
             linearised: false,
             tension,
+            sliding,
         }
     }
 
@@ -245,6 +251,7 @@ impl GradientFlow {
         self.energy.linearise(&self.frozen.fields, &mut self.descent.gradient);
         self.frozen.set_mobility();
         self.linearised = true;
+        self.freeze_sliding();
         self.freeze_tension();
     }
 

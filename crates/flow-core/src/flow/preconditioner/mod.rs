@@ -128,6 +128,7 @@ impl Preconditioner {
     /// # Errors
     /// [`FactorisationError`] if a pivot vanishes; a smaller γ helps.
     pub fn factorise(&mut self, flow: &mut GradientFlow, gamma: f64) -> Result<(), FactorisationError> {
+        flow.set_sliding_step(gamma);
         self.weights.set(flow, gamma);
         if let Some(metric) = &mut self.metric {
             metric.set(flow, gamma);

@@ -49,6 +49,8 @@ pub struct Bdf {
     constant: Vec<f64>,
     candidate: Vec<f64>,
     difference: Vec<f64>,
+    /// What [`Problem::undamped_frequency`] says of the last step.
+    undamped: f64,
 }
 
 impl Bdf {
@@ -137,6 +139,7 @@ impl Bdf {
             constant: vec![0.0; size],
             candidate: vec![0.0; size],
             difference: vec![0.0; size],
+            undamped: 0.0,
         }
     }
 
@@ -191,6 +194,7 @@ impl Stepper for Bdf {
         {
             *difference = y - predicted;
         }
+        self.undamped = problem.undamped_frequency();
         let error = self.error_factor() * self.norm.norm(&self.difference);
         if error > self.tolerance {
             let growth = self.growth(error, self.pace.order, BIAS_OF_FAILED);

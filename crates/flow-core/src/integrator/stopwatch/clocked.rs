@@ -103,6 +103,10 @@ impl<P: Problem> Problem for Clocked<'_, P> {
         self.problem.forgets()
     }
 
+    fn undamped_frequency(&self) -> f64 {
+        self.problem.undamped_frequency()
+    }
+
     fn energy_rounding(&self, y: &[f64]) -> f64 {
         self.problem.energy_rounding(y)
     }

@@ -280,6 +280,10 @@ impl Problem for Membrane {
         !self.flow.carries_over_nodes()
     }
 
+    fn undamped_frequency(&self) -> f64 {
+        self.flow.sliding_frequency()
+    }
+
     fn energy_rounding(&self, y: &[f64]) -> f64 {
         f64::EPSILON * self.flow.energy_sensitivity(y)
     }
