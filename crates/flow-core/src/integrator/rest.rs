@@ -33,6 +33,11 @@ impl Rest {
         }
     }
 
+    /// Takes the flow for at rest with this `energy` from now on.
+    pub fn reach(&mut self, energy: f64) {
+        *self = Self { energy, since: 0.0, steps: STEPS };
+    }
+
     /// Whether the flow is at rest at `time`.
     #[must_use]
     pub fn reached(&self, time: f64) -> bool {

@@ -8,9 +8,9 @@ use crate::geometry::shapes::Resampled;
 use crate::geometry::vectors::{add_scaled, mean_of_triple_product, sum};
 
 /// Part of the tolerance by which the curvature of a held curve may vary, in the root mean square: it could move by twice that.
-const ROUND: f64 = 0.22;
+const ROUND: f64 = 0.7;
 /// … and by which it would vary where the force takes the curve: what it has left of an area makes more of it in high modes.
-const DRIVEN: f64 = 1.2;
+const DRIVEN: f64 = 2.0;
 
 /// Whether the curve of `scene`, whose length and area are kept, is nearly a circle, run through once.
 pub(super) fn is_nearly_round(scene: &Scene, curve: &Resampled) -> bool {

@@ -145,8 +145,9 @@ proptest! {
                     );
                 }
                 let keeps = flow.normal_mobility().keeps();
+                let of_area = flow.area_force().map_or_else(|| vec![1.0; nodes], <[f64]>::to_vec);
                 let velocity = flow.normal_velocity();
-                let area = velocity.iter().zip(grading.weight()).map(|(v, w)| v * w).sum::<f64>() / nodes as f64;
+                let area = flow.current().mean_of_product(velocity, &of_area);
                 prop_assert!(
                     !keeps.area || area.abs() <= 1e-12 * largest(velocity).max(largest(flow.normal_force())),
                     "{term:?}, {normal:?}, {family:?}: area at {area:.1e}"

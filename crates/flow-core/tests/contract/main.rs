@@ -13,6 +13,7 @@ mod gauges;
 mod helmholtz;
 mod incompressible;
 mod invariance;
+mod kept_area;
 mod linear_solvers;
 mod mobilities;
 mod mobility_laws;

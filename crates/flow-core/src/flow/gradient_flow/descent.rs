@@ -8,6 +8,9 @@ use crate::flow::intrinsic_gradient::IntrinsicGradient;
 use crate::flow::normal_mobility::{MobilityError, NormalMobility};
 use crate::geometry::{Complex64, Layout, SpectralLayout};
 
+/// Part of the square of the force without what holds the area that a constant tension makes up next to a rest.
+const AT_REST: f64 = 0.5;
+
 /// The fields of one state, and the normal mobility there.
 #[derive(Debug)]
 pub struct Place {
@@ -32,11 +35,16 @@ impl Place {
         }
     }
 
-    /// Minus the mean of the tension that holds every piece of the curve against what holds its area.
-    pub fn tension_for_area(&mut self, force: &[f64]) -> f64 {
-        let multiplier = self.mobility.area_multiplier(&self.fields, force);
-        let kappa = self.fields.at_nodes(0);
-        multiplier * self.fields.mean(kappa) / self.fields.mean_of_product(kappa, kappa)
+    /// φ of f = c + φκ, the nearest to the `force`: at a rest c holds the area and φ, the same all along, every piece of the curve. Far
+    /// from one, where most of f − c is no such multiple, what holds the area beside the mean tension `mean`.
+    pub fn holding_mean_tension(&mut self, force: &[f64], mean: f64) -> f64 {
+        let Self { fields, mobility, .. } = self;
+        let (kappa, pressure) = (fields.at_nodes(0), mobility.area_multiplier(fields, force));
+        let square = fields.mean_of_product(kappa, kappa);
+        let of_pressure = pressure * fields.mean(kappa);
+        let along = fields.mean_of_product(kappa, force) - of_pressure;
+        let rest = fields.mean_of_product(force, force) - pressure * (2.0 * fields.mean(force) - pressure);
+        if along * along > AT_REST * square * rest { along / square } else { mean - of_pressure / square }
     }
 
     /// What holds every piece of the curve, NaN where the mobility is not defined.

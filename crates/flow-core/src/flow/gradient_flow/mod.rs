@@ -1,5 +1,6 @@
 //! The right-hand side −`𝓚(X)∇𝓕_h` and the implicit operator −𝓚 Hess `𝓕_h`. See `THEORY.md`, eqs. (F6) and (F7).
 
+mod area;
 mod derivative_check;
 mod descent;
 mod implicit;
@@ -11,6 +12,7 @@ mod slopes;
 mod tension;
 mod turning;
 
+use area::AreaForce;
 use descent::{Descent, Place};
 
 use super::curve_fields::CurveFields;
@@ -74,6 +76,8 @@ pub struct GradientFlow {
     /// The state evaluated last, and that of the linearisation.
     current: Place,
     frozen: Place,
+    /// What holds the area at either; none where the mobility does without.
+    area: Option<AreaForce>,
     /// Whether there is a linearisation.
     linearised: bool,
     /// The tension at the linearisation.
@@ -92,7 +96,7 @@ impl GradientFlow {
         mut map: FlowMap,
         energy: EnergySum,
         layout: Layout,
-        normal_mobility: Box<dyn NormalMobility>,
+        mut normal_mobility: Box<dyn NormalMobility>,
         density_mobilities: Vec<Box<dyn DensityMobility>>,
     ) -> Self {
         assert_eq!(density_mobilities.len(), layout.densities(), "one mobility per density");
@@ -101,6 +105,7 @@ impl GradientFlow {
             [layout; 2],
             "the states of map and energy are those of the flow"
         );
+        let area = AreaForce::of(&mut *normal_mobility, layout, &mut map);
         let (grid, derivative) = map.grid_and_derivative();
         let fields = CurveFields::new(layout, grid, derivative);
         let mobility = normal_mobility.boxed_clone();
@@ -122,32 +127,11 @@ impl GradientFlow {
             descent,
             current: Place { fields, mobility: normal_mobility, fault: None },
             frozen,
+            area,
             linearised: false,
             tension,
             sliding,
         }
-    }
-
-    /// Where the flow keeps the area, takes what it costs for what it does at `area` from now on, a constant without a force (F21). Left in,
-    /// the force moves nothing, but its rounding, and what steps of finite length change of the area, are as dear as the area is.
-    pub fn set_kept_area(&mut self, area: f64) {
-        if self.current.mobility.keeps().area {
-            self.energy.set_kept_area(Some(area));
-        }
-    }
-
-    /// Force on the normal motion at the nodal `state`, with that of an area that is kept; evaluates the state.
-    ///
-    /// # Panics
-    /// If `state` is no nodal vector of the layout.
-    pub fn whole_normal_force(&mut self, state: &[f64]) -> Vec<f64> {
-        let Some(area) = self.energy.kept_area() else { return self.normal_force().to_vec() };
-        self.energy.set_kept_area(None);
-        self.dissipation_at(state);
-        let force = self.normal_force().to_vec();
-        self.energy.set_kept_area(Some(area));
-        self.dissipation_at(state);
-        force
     }
 
     /// Rate of `state` into `rate`, per time, both spectral ([`crate::geometry::SpectralLayout`]).
@@ -166,8 +150,8 @@ impl GradientFlow {
     /// If `state` is no spectral vector of the layout.
     pub fn spectral_dissipation(&mut self, state: &[f64]) -> Rate {
         let energy = self.spectral_gradient(state);
+        self.set_current_mobility();
         let Self { descent, current, .. } = self;
-        current.set_mobility();
         descent.descend(current);
         let of_the_curve = descent.curve_dissipation(&current.fields);
         Rate { energy, dissipation: descent.add_density_dissipation(&current.fields, of_the_curve) }
@@ -193,7 +177,7 @@ impl GradientFlow {
     /// If `state` is no spectral vector of the layout.
     pub fn holds_curve(&mut self, state: &[f64]) -> bool {
         self.set_current(state);
-        self.current.set_mobility();
+        self.set_current_mobility();
         self.current.fault.is_none() && self.current.mobility.holds_curve()
     }
 
@@ -249,7 +233,7 @@ impl GradientFlow {
         let (grid, derivative) = self.descent.map.grid_and_derivative();
         self.frozen.fields.set(state, grid, derivative);
         self.energy.linearise(&self.frozen.fields, &mut self.descent.gradient);
-        self.frozen.set_mobility();
+        self.set_frozen_mobility();
         self.linearised = true;
         self.freeze_sliding();
         self.freeze_tension();

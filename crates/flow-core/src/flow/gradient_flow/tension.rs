@@ -54,12 +54,12 @@ impl GradientFlow {
         map.stretching(&frozen.fields, &gradient.spectra, gradient.by_length, stretching);
         if frozen.mobility.keeps().length {
             // 𝓑 takes κ to zero on every curve: a mean tension moves nothing, and its derivative is not that of the force alone.
-            let mean = frozen.fields.mean(stretching);
-            shift(stretching, -mean);
+            let mut moves_nothing = frozen.fields.mean(stretching);
             if frozen.mobility.keeps().area {
                 map.complete_force(&frozen.fields, &gradient.spectra, stretching, force);
-                shift(stretching, frozen.tension_for_area(force));
+                moves_nothing = frozen.holding_mean_tension(force, moves_nothing);
             }
+            shift(stretching, -moves_nothing);
         }
         *tension = -mean(stretching);
     }

@@ -1,4 +1,4 @@
-//! Local length and area held: 𝓑 = 𝓘 − 𝓘1 ⟨𝓘1, ·⟩/⟨𝓘1, 1⟩. See `THEORY.md`, eq. (F10).
+//! Local length and area held: 𝓑 = 𝓘 − 𝓘a ⟨𝓘a, ·⟩/⟨𝓘a, a⟩. See `THEORY.md`, eq. (F10).
 
 use std::f64::consts::TAU;
 
@@ -6,21 +6,22 @@ use super::{Incompressible, Kept, MobilityError, NormalMobility};
 use crate::flow::CurveFields;
 use crate::operators::Derivative;
 
-/// Mean square of the part of 1 off κ below which the curve is a circle to rounding: 1 is in the kernel of 𝓘.
+/// Mean square of the part of a off κ below which the curve is a circle to rounding: a is in the kernel of 𝓘.
 const ROUND: f64 = 1e-24;
 
-/// Every piece of the curve keeps its length, and the area is held: V = 𝓘f − (⟨𝓘f, 1⟩/⟨𝓘1, 1⟩) 𝓘1 with 𝓘 of
-/// [`Incompressible`](super::Incompressible). See `THEORY.md`, eq. (F10). On a circle 𝓘1 = 0; on one that is run through once 𝓑 = 0 too: of
+/// Every piece of the curve keeps its length, and the area is held: V = 𝓘f − (⟨𝓘f, a⟩/⟨𝓘a, a⟩) 𝓘a with 𝓘 of
+/// [`Incompressible`](super::Incompressible) and the force a of the area on the grid, 1 in the continuum. See `THEORY.md`, eq. (F10). On a circle 𝓘a = 0; on one that is run through once 𝓑 = 0 too: of
 /// all curves of its length that one alone has its area.
 #[derive(Clone, Debug)]
 pub struct IncompressibleAreaPreserving {
     incompressible: Incompressible,
-    /// 1 less its component along κ, and 𝓘1.
-    one: Vec<f64>,
+    /// a, the same less its component along κ, and 𝓘a.
+    area_force: Vec<f64>,
+    area_part: Vec<f64>,
     image: Vec<f64>,
     /// The force without what holds the area.
     less: Vec<f64>,
-    /// 1/⟨𝓘1, 1⟩, or 0 on a circle.
+    /// 1/⟨𝓘a, a⟩, or 0 on a circle.
     inverse: f64,
     /// Whether every curve counts as a circle that is run through once, which is held.
     holds_all: bool,
@@ -35,7 +36,8 @@ impl IncompressibleAreaPreserving {
     pub fn new(derivative: &Derivative, nodes: usize) -> Self {
         Self {
             incompressible: Incompressible::new(derivative, nodes),
-            one: vec![0.0; nodes],
+            area_force: vec![1.0; nodes],
+            area_part: vec![0.0; nodes],
             image: vec![0.0; nodes],
             less: vec![0.0; nodes],
             inverse: 0.0,
@@ -55,12 +57,16 @@ impl IncompressibleAreaPreserving {
 }
 
 impl NormalMobility for IncompressibleAreaPreserving {
+    fn area_force(&mut self) -> Option<&mut [f64]> {
+        Some(&mut self.area_force)
+    }
+
     fn set(&mut self, at: &CurveFields) -> Result<(), MobilityError> {
         self.incompressible.set(at)?;
-        self.one.fill(1.0);
-        self.incompressible.project(at, &mut self.one);
-        self.incompressible.apply(at, &self.one, &mut self.image);
-        let square = at.mean_of_product(&self.image, &self.one);
+        self.area_part.copy_from_slice(&self.area_force);
+        self.incompressible.project(at, &mut self.area_part);
+        self.incompressible.apply(at, &self.area_part, &mut self.image);
+        let square = at.mean_of_product(&self.image, &self.area_part);
         // One that is run through more often has the area of other curves of its length as well.
         let turning_number = at.length() * at.mean(at.at_nodes(0)) / TAU;
         let once = (turning_number.abs() - 1.0).abs() < 0.5;
@@ -75,7 +81,7 @@ impl NormalMobility for IncompressibleAreaPreserving {
             return;
         }
         self.incompressible.apply(at, force, velocity);
-        let factor = self.inverse * at.mean_of_product(velocity, &self.one);
+        let factor = self.inverse * at.mean_of_product(velocity, &self.area_part);
         for (v, image) in velocity.iter_mut().zip(&self.image) {
             *v -= factor * image;
         }
@@ -87,8 +93,8 @@ impl NormalMobility for IncompressibleAreaPreserving {
 
     fn holding_tension(&mut self, at: &CurveFields, force: &[f64], tension: &mut [f64]) {
         let multiplier = self.area_multiplier(at, force);
-        for (less, f) in self.less.iter_mut().zip(force) {
-            *less = f - multiplier;
+        for ((less, f), area) in self.less.iter_mut().zip(force).zip(&self.area_force) {
+            *less = f - multiplier * area;
         }
         self.incompressible.holding_tension(at, &self.less, tension);
     }

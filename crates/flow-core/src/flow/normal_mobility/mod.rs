@@ -54,6 +54,12 @@ pub trait NormalMobility: Debug + Send + Sync {
         false
     }
 
+    /// Where 𝓑 holds the area that the grid has, and not that of the continuum: room for the force of that area, −Aᵀ of its derivative, near
+    /// 1, which is filled in before [`NormalMobility::set`]. Shapes: one value per node.
+    fn area_force(&mut self) -> Option<&mut [f64]> {
+        None
+    }
+
     /// Prepares 𝓑 at the state `at`, without allocating.
     ///
     /// # Errors

@@ -3,12 +3,22 @@
 //! A residual r of a stiff mode with symbol 1 + γσ is an error r/(1 + γσ) of the state, but an error r/γ of the rate,
 //! which enters the dissipation. (1 + γσ)^{−3/8} keeps both small and does not ask for more; in the curvature ^{−5/8} does, where
 //! what is left settles at no cost (see [`super::stiff_curvature`]). Where nodes crowd, σ, a mean, is far below the stiffness there,
-//! and (1 + γσ)^{−1/4} does that. See `THEORY.md`, eq. (I3).
+//! and (1 + γσ)^{−1/4} does that. What is left of a density that exchanges fades no faster than its own potential relaxes it. See
+//! `THEORY.md`, eq. (I3).
 
 use super::super::gradient_flow::GradientFlow;
 use super::fourier::diagonal_symbol;
 use crate::geometry::SpectralLayout;
 use crate::geometry::vectors::multiply;
+
+/// The residual of a density that exchanges counts this much more.
+const OF_EXCHANGE: f64 = 16.0;
+
+/// Whether a density moves without derivatives, though not only with the curve.
+fn relaxes(flow: &GradientFlow, density: usize) -> bool {
+    let mobility = &flow.density_mobilities()[density];
+    mobility.order() == 0 && !mobility.is_zero()
+}
 
 /// Weights by coefficient of a spectral state, and their inverses.
 #[derive(Clone, Debug)]
@@ -50,6 +60,7 @@ impl ResidualWeights {
             }
             let (inverses, _) = self.inverses[entries.clone()].as_chunks_mut::<2>();
             let (weights, _) = self.weights[entries].as_chunks_mut::<2>();
+            let more = if field > 0 && relaxes(flow, field - 1) { OF_EXCHANGE } else { 1.0 };
             // A loop of its own, so that the roots are taken in whole vector registers.
             for ((inverse, weight), stiffness) in inverses.iter_mut().zip(weights).zip(&self.stiffness) {
                 let half = (1.0 + stiffness).sqrt();
@@ -59,8 +70,8 @@ impl ResidualWeights {
                     (true, 0) => half * quarter.sqrt(),
                     (true, _) => quarter * quarter.sqrt(),
                 };
-                *inverse = [root; 2];
-                *weight = [1.0 / root; 2];
+                *inverse = [root / more; 2];
+                *weight = [more / root; 2];
             }
         }
     }

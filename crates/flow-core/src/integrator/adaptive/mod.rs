@@ -193,7 +193,15 @@ impl<S: Stepper> Adaptive<S> {
             Finish::NotFinite => Err(self.refuse(Rejection::NotFinite, LEAST_FACTOR)),
             Finish::Good { energy, .. } if self.rises(problem, energy) => {
                 let rounding = self.rounding(problem, energy);
-                self.idle = energy <= self.energy + 2.0 * rounding && finish.dissipation() * time <= rounding;
+                let (dissipation, matters) =
+                    (finish.dissipation(), self.options.energy_tolerance * self.scale.of(energy));
+                if energy <= self.energy + 2.0 * rounding {
+                    self.idle = dissipation * time <= rounding;
+                    // Too short for the dissipation to be seen, which has been no matter all the time so far.
+                    if dissipation * size <= rounding && dissipation * time <= matters {
+                        self.rest.reach(self.energy);
+                    }
+                }
                 Err(self.refuse(Rejection::EnergyRise, LEAST_FACTOR))
             }
             Finish::Good { energy, mut integral_rates } => {

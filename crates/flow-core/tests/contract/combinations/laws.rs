@@ -107,7 +107,8 @@ impl Flowing {
         let keeps = flow.normal_mobility().keeps();
         let force = largest(flow.normal_force());
         let length = self.rate[layout.length_index()].abs() / self.y[layout.length_index()];
-        let area = flow.current().mean(flow.normal_velocity()).abs();
+        let of_area = flow.area_force().map_or_else(|| vec![1.0; layout.nodes()], <[f64]>::to_vec);
+        let area = flow.current().mean_of_product(flow.normal_velocity(), &of_area).abs();
         let length = length / (largest(flow.current().at_nodes(0)) * force);
         Kept {
             turning,
