@@ -2,6 +2,7 @@
 
 use curveflow_tests::physics::adhesion::measure;
 use curveflow_tests::{assert_close, last, run, scene};
+use flow_core::run::warnings;
 
 /// Values of 512 nodes at the tolerance 1e-9, certain to 2e-7 (see `docs/physics.md`).
 const LENGTH_RATIO: f64 = 1.3312419;
@@ -74,5 +75,27 @@ fn nodes_that_a_curve_stretches_apart_resolve_a_kernel() {
         )));
         println!("{tolerance}: {:?}", last(&record).energy);
         assert_close(last(&record).energy, 24.564614, error);
+    }
+}
+
+/// Fields that are smooth on their nodes say nothing of a kernel that is narrower than these: the energy was 5 % off without a word.
+#[test]
+fn a_kernel_between_fixed_nodes_is_told() {
+    for (nodes, resolves) in [(64, false), (257, false), (512, true)] {
+        let record = run(&scene(&format!(
+            "
+            curve = {{ shape = 'ellipse', semi_axes = [1.5, 0.8] }}
+            energy.bending.rigidity = 0.1
+            energy.adhesion.kernel = '-0.5*exp(-q/0.0004)'
+            energy.length.tension = 0.5
+            time = {{ end = 0.2, stop_at_equilibrium = false }}
+            accuracy = {{ tolerance = 1e-4, nodes = {nodes} }}
+            "
+        )));
+        let unresolved = record.counters.unresolved_steps;
+        println!("{nodes}: {unresolved} of {}", record.counters.steps);
+        assert!(record.counters.steps >= 8);
+        assert_eq!(unresolved == 0, resolves, "{nodes} nodes: {unresolved}");
+        assert_eq!(warnings(&record).is_empty(), resolves, "{nodes} nodes");
     }
 }

@@ -141,7 +141,7 @@ impl Adaptation {
         let Glance { field, part, slides, age } = glance;
         let (layout, family) = (membrane.layout(), self.family(membrane));
         let resolved = part <= self.bound;
-        let equidistant = self.fewest_equidistant(membrane, state);
+        let equidistant = fewest_equidistant(membrane, state, self.bound);
         let least = equidistant * sparsest_in(membrane, state);
         let resolved = resolved && mesh.nodes as f64 >= least;
         let margin = match (resolved, self.grades) {
@@ -181,12 +181,6 @@ impl Adaptation {
         self.families[usize::from(membrane.flow().grading().is_some())]
     }
 
-    /// Equidistant nodes that the energies of positions ask for.
-    fn fewest_equidistant(&self, membrane: &mut Membrane, state: &[f64]) -> f64 {
-        let length = state[SpectralLayout::new(membrane.layout()).length_index()];
-        length / membrane.flow().energy_terms().largest_spacing(length, self.bound)
-    }
-
     /// Says that the nodes of `layout` leave `part` of `field` unresolved at `time`.
     #[cold]
     fn hopeless(&self, time: f64, layout: Layout, (field, part): (usize, f64)) -> ResolutionError {
@@ -197,6 +191,18 @@ impl Adaptation {
             _ => ResolutionError::Metric { time, nodes, part },
         }
     }
+}
+
+/// Equidistant nodes that the energies of positions ask for, to the part `error`.
+fn fewest_equidistant(membrane: &mut Membrane, state: &[f64], error: f64) -> f64 {
+    let length = state[SpectralLayout::new(membrane.layout()).length_index()];
+    length / membrane.flow().energy_terms().largest_spacing(length, error)
+}
+
+/// Whether nodes of `membrane` lie farther apart in the spectral `state` than the energies of positions ask for, to the part `error`.
+pub(super) fn lie_too_far_apart(membrane: &mut Membrane, state: &[f64], error: f64) -> bool {
+    let fewest = fewest_equidistant(membrane, state, error);
+    fewest > 0.0 && fewest * sparsest_in(membrane, state) > membrane.layout().nodes() as f64
 }
 
 /// The largest distance of nodes, in that of as many equidistant ones.

@@ -6,7 +6,7 @@ use super::Simulation;
 use super::discretised::Discretised;
 use crate::energies::TermFault;
 use crate::integrator::{Factorisation, Finish, Multistep, Problem, Stepper};
-use crate::run::adaptation::{Look, Plan, Way};
+use crate::run::adaptation::{Look, Plan, Way, lie_too_far_apart};
 use crate::run::failure::Failure;
 use crate::run::mesh::Mesh;
 use crate::run::resolution::unresolved;
@@ -56,7 +56,8 @@ impl Simulation {
             let family = self.on.membrane.flow().derivative().family();
             let (layout, state) = (self.on.membrane.layout(), self.integration.stepper().state());
             let part = unresolved(layout, state, layout.nodes(), family);
-            if part > COARSE.max(COARSE_PART * self.tolerance) {
+            let coarse = COARSE.max(COARSE_PART * self.tolerance);
+            if part > coarse || lie_too_far_apart(&mut self.on.membrane, state, coarse) {
                 self.record.counters.unresolved_steps += FIXED_LOOKS;
             }
         }
