@@ -71,6 +71,18 @@ mod tests {
     }
 
     #[test]
+    fn what_is_taken_for_at_rest_is_until_its_energy_changes() {
+        let mut rest = Rest::new(0.0, 2.0);
+        rest.watch(1.0, 1.0, 1e-13);
+        rest.reach(1.0);
+        assert!(rest.reached(1.0));
+        rest.watch(1.1, 1.0 - 5e-14, 1e-13);
+        assert!(rest.reached(1.1));
+        rest.watch(1.2, 0.999, 1e-13);
+        assert!(!rest.reached(1.2));
+    }
+
+    #[test]
     fn many_steps_within_a_short_time_are_no_rest() {
         let mut rest = Rest::new(0.0, 2.0);
         rest.watch(1.0, 1.0, 1e-13);

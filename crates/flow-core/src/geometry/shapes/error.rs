@@ -76,7 +76,7 @@ pub enum ShapeError {
     /// The points zigzag, so that the curve through them has no meaningful curvature.
     #[error(
         "{points} points are too few for their curve, or noisy: the highest third of their Fourier modes makes \
-         {share:.1e} of d²γ/dphi², allowed is {bound:.0e}; smooth them or sample more finely"
+         {share:.1e} of d²γ/dphi², allowed is {bound:.0e}; smooth them, thin out many that are rounded, or sample more finely"
     )]
     RoughPoints { points: usize, share: f64, bound: f64 },
     /// The distances of neighbours jump, so that the curve through the points, whose parameter is the index, oscillates.

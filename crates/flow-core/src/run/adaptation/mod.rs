@@ -141,7 +141,7 @@ impl Adaptation {
         let Glance { field, part, slides, age } = glance;
         let (layout, family) = (membrane.layout(), self.family(membrane));
         let resolved = part <= self.bound;
-        let equidistant = fewest_equidistant(membrane, state, self.bound);
+        let equidistant = self.fewest_equidistant(membrane, state);
         let least = equidistant * sparsest_in(membrane, state);
         let resolved = resolved && mesh.nodes as f64 >= least;
         let margin = match (resolved, self.grades) {
@@ -181,6 +181,12 @@ impl Adaptation {
         self.families[usize::from(membrane.flow().grading().is_some())]
     }
 
+    /// Equidistant nodes that the energies of positions ask for.
+    fn fewest_equidistant(&self, membrane: &mut Membrane, state: &[f64]) -> f64 {
+        let length = state[SpectralLayout::new(membrane.layout()).length_index()];
+        length / membrane.flow().energy_terms().largest_spacing(length, self.bound)
+    }
+
     /// Says that the nodes of `layout` leave `part` of `field` unresolved at `time`.
     #[cold]
     fn hopeless(&self, time: f64, layout: Layout, (field, part): (usize, f64)) -> ResolutionError {
@@ -191,18 +197,6 @@ impl Adaptation {
             _ => ResolutionError::Metric { time, nodes, part },
         }
     }
-}
-
-/// Equidistant nodes that the energies of positions ask for, to the part `error`.
-fn fewest_equidistant(membrane: &mut Membrane, state: &[f64], error: f64) -> f64 {
-    let length = state[SpectralLayout::new(membrane.layout()).length_index()];
-    length / membrane.flow().energy_terms().largest_spacing(length, error)
-}
-
-/// Whether nodes of `membrane` lie farther apart in the spectral `state` than the energies of positions ask for, to the part `error`.
-pub(super) fn lie_too_far_apart(membrane: &mut Membrane, state: &[f64], error: f64) -> bool {
-    let fewest = fewest_equidistant(membrane, state, error);
-    fewest > 0.0 && fewest * sparsest_in(membrane, state) > membrane.layout().nodes() as f64
 }
 
 /// The largest distance of nodes, in that of as many equidistant ones.
@@ -220,7 +214,7 @@ fn sparsest_in(membrane: &mut Membrane, state: &[f64]) -> f64 {
     largest(&values) / state[spectral.length_index()]
 }
 
-fn largest(values: &[f64]) -> f64 {
+pub(super) fn largest(values: &[f64]) -> f64 {
     values.iter().copied().fold(0.0, f64::max)
 }
 

@@ -68,6 +68,8 @@ pub struct Simulation {
     adaptation: Option<Adaptation>,
     /// Whether nodes that the scene fixes have missed some of its data: then the run is one of other data.
     misses_data: bool,
+    /// Distance of such nodes up to which they resolve the energies of positions, on a circle as long as the curve is at the start.
+    largest_distance: f64,
     /// Changes of the gauge so far.
     switches: u64,
     tolerance: f64,

@@ -6,10 +6,12 @@ use super::Simulation;
 use super::discretised::Discretised;
 use crate::energies::TermFault;
 use crate::integrator::{Factorisation, Finish, Multistep, Problem, Stepper};
-use crate::run::adaptation::{Look, Plan, Way, lie_too_far_apart};
+use crate::run::adaptation::{Look, Plan, Way, largest};
 use crate::run::failure::Failure;
+use crate::run::membrane::Membrane;
 use crate::run::mesh::Mesh;
 use crate::run::resolution::unresolved;
+use crate::run::scene::{Nodes, Scene};
 use crate::run::setup_error::SetupError;
 use crate::run::{assembly, limits};
 
@@ -18,6 +20,22 @@ const FIXED_LOOKS: u64 = 8;
 /// Part of a field, and of the tolerance if that is more, that they may leave unresolved without a word.
 const COARSE: f64 = 1e-3;
 const COARSE_PART: f64 = 0.1;
+
+/// What they may leave unresolved of a field without a word, at this tolerance.
+fn coarse(tolerance: f64) -> f64 {
+    COARSE.max(COARSE_PART * tolerance)
+}
+
+/// Distance of nodes up to which they resolve the energies of positions by that, on a circle of this `length`; infinite unless `scene`
+/// fixes their number.
+pub(super) fn largest_distance(scene: &Scene, membrane: &mut Membrane, length: f64) -> f64 {
+    match scene.accuracy.nodes {
+        Nodes::Auto => f64::INFINITY,
+        Nodes::Count(_) => {
+            membrane.flow().energy_terms().largest_spacing(length, coarse(scene.accuracy.tolerance))
+        }
+    }
+}
 
 impl Simulation {
     /// Takes other nodes if the state at hand asks for them or allows it.
@@ -56,8 +74,10 @@ impl Simulation {
             let family = self.on.membrane.flow().derivative().family();
             let (layout, state) = (self.on.membrane.layout(), self.integration.stepper().state());
             let part = unresolved(layout, state, layout.nodes(), family);
-            let coarse = COARSE.max(COARSE_PART * self.tolerance);
-            if part > coarse || lie_too_far_apart(&mut self.on.membrane, state, coarse) {
+            let length = state[self.on.membrane.flow().spectral_layout().length_index()];
+            let sparsest = self.on.membrane.flow().current().weight().map_or(1.0, largest);
+            let distance = sparsest * length / layout.nodes() as f64;
+            if part > coarse(self.tolerance) || distance > self.largest_distance {
                 self.record.counters.unresolved_steps += FIXED_LOOKS;
             }
         }

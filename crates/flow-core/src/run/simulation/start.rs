@@ -6,6 +6,7 @@ use super::ahead::ahead;
 use super::clocks::Clocks;
 use super::discretised::Discretised;
 use super::frame::Start;
+use super::remap::largest_distance;
 use super::saving::FrameRoom;
 use super::{ENERGY_TOLERANCE_SHARE, Simulation};
 use crate::energies::EnergyTerm;
@@ -121,6 +122,7 @@ impl Simulation {
             provenance: Provenance::here(),
         };
         let scale = energy_scale(scene, &record);
+        let largest_distance = largest_distance(scene, &mut on.membrane, record.frames[0].length);
         let mut simulation = Self {
             equilibrium: scene
                 .time
@@ -131,6 +133,7 @@ impl Simulation {
             adaptation,
             misses_data: scene.accuracy.nodes != Nodes::Auto
                 && missed > MISSED.max(MISSED_TOLERANCES * scene.accuracy.tolerance),
+            largest_distance,
             frame_room: FrameRoom::new(on.mesh.nodes),
             switches: 0,
             tolerance: scene.accuracy.tolerance,
