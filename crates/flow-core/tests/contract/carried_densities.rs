@@ -4,7 +4,7 @@ use flow_core::operators::DerivativeFamily;
 use proptest::prelude::*;
 
 use crate::config;
-use crate::gauges::{grading, with_metric};
+use crate::gauges::every_spacing;
 use crate::mobilities::{Density, Normal};
 use crate::states::{any_blob, any_nodes, spectral};
 use crate::terms::{Term, flow_on};
@@ -22,15 +22,10 @@ proptest! {
     fn the_implicit_operator_has_their_transport(blob in any_blob(), nodes in any_nodes(), seed: u64) {
         for normal in Normal::ALL {
             for family in DerivativeFamily::ALL {
-                for (gradings, material) in [(None, false), (Some(grading(nodes)), false), (Some(grading(nodes)), true)] {
-                    let state = match &gradings {
-                        Some(grading) if material => with_metric(&blob.graded_state(grading, 1), grading),
-                        Some(grading) => blob.graded_state(grading, 1),
-                        None => blob.state(nodes, 1),
-                    };
+                for (grading, state) in every_spacing(&blob, nodes) {
                     let (layout, y) = (state.layout, &state.y);
                     let terms = Term::Bending.build(layout);
-                    let mut flow = flow_on(gradings.as_ref(), terms, family, layout, normal, &[Density::Carried]);
+                    let mut flow = flow_on(grading.as_ref(), terms, family, layout, normal, &[Density::Carried]);
                     let of_the_density = layout.field(1);
                     let mut v = motion(layout, seed);
                     v.iter_mut().enumerate().for_each(|(i, v)| if !of_the_density.contains(&i) { *v = 0.0 });
@@ -45,7 +40,7 @@ proptest! {
                     flow.spectral_linearise(&spectral(layout, y));
                     flow.implicit_product(&spectral(layout, &v), &mut predicted);
                     let scale = largest(&before) + largest(&measured);
-                    let slides = !material && normal != Normal::SurfaceDiffusion;
+                    let slides = layout.metric().is_none() && normal != Normal::SurfaceDiffusion;
                     prop_assert_eq!(slides, flow.sliding_frequency() > 0.0);
                     if slides {
                         let error = distance(&measured, &predicted);

@@ -9,7 +9,7 @@ use flow_core::operators::{Derivative, DerivativeFamily};
 use proptest::prelude::*;
 
 use crate::config;
-use crate::mobilities::{Density, Normal};
+use crate::mobilities::{Density, Normal, area_rate};
 use crate::states::{Blob, State, any_blob, any_nodes, fixed_blob, spectral};
 use crate::terms::{Term, every_flow, flow_on};
 use crate::vectors::{difference, distance, largest, motion, moved, noise, pair, size, vector_difference};
@@ -53,6 +53,12 @@ pub fn with_metric(state: &State, grading: &Grading) -> State {
     y.extend(grading.weight().iter().map(|weight| weight * length[0]));
     y.push(length[0]);
     State { layout, y }
+}
+
+/// States with a density on equidistant, graded and material nodes, each with its grading.
+pub fn every_spacing(blob: &Blob, nodes: usize) -> [(Option<Grading>, State); 3] {
+    let [fixed, material] = [false, true].map(|moving| graded(blob, nodes, 1, moving));
+    [(None, blob.state(nodes, 1)), (Some(fixed.0), fixed.1), (Some(material.0), material.1)]
 }
 
 /// Every normal mobility with every family, numbered.
@@ -145,9 +151,8 @@ proptest! {
                     );
                 }
                 let keeps = flow.normal_mobility().keeps();
-                let of_area = flow.area_force().map_or_else(|| vec![1.0; nodes], <[f64]>::to_vec);
+                let area = area_rate(&mut flow);
                 let velocity = flow.normal_velocity();
-                let area = flow.current().mean_of_product(velocity, &of_area);
                 prop_assert!(
                     !keeps.area || area.abs() <= 1e-12 * largest(velocity).max(largest(flow.normal_force())),
                     "{term:?}, {normal:?}, {family:?}: area at {area:.1e}"

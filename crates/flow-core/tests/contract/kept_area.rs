@@ -5,7 +5,7 @@ use flow_core::operators::DerivativeFamily;
 use proptest::prelude::*;
 
 use crate::config;
-use crate::gauges::{grading, with_metric};
+use crate::gauges::every_spacing;
 use crate::mobilities::{Density, Normal};
 use crate::states::{any_blob, any_nodes};
 use crate::terms::{Term, flow_on};
@@ -21,15 +21,10 @@ proptest! {
     #[test]
     fn the_flow_does_not_change_it(blob in any_blob(), nodes in any_nodes()) {
         for family in DerivativeFamily::ALL {
-            for (gradings, material) in [(None, false), (Some(grading(nodes)), false), (Some(grading(nodes)), true)] {
-                let state = match &gradings {
-                    Some(grading) if material => with_metric(&blob.graded_state(grading, 1), grading),
-                    Some(grading) => blob.graded_state(grading, 1),
-                    None => blob.state(nodes, 1),
-                };
+            for (grading, state) in every_spacing(&blob, nodes) {
                 let (layout, y) = (state.layout, &state.y);
                 let normal = Normal::IncompressibleAreaPreserving;
-                let flow = |terms| flow_on(gradings.as_ref(), terms, family, layout, normal, &[Density::Diffusion]);
+                let flow = |terms| flow_on(grading.as_ref(), terms, family, layout, normal, &[Density::Diffusion]);
                 let (mut rate, mut by_area) = (vec![0.0; y.len()], vec![0.0; y.len()]);
                 flow(Term::Agents.build(layout)).rate(y, &mut rate);
                 flow(vec![Box::new(Area::Pressure(1.0))]).gradient_at(y, &mut by_area);

@@ -1,7 +1,7 @@
 //! Every mobility.
 
 use flow_core::flow::{
-    AreaPreserving, Carried, DensityMobility, Diffusion, Exchange, Identity, Incompressible,
+    AreaPreserving, Carried, DensityMobility, Diffusion, Exchange, GradientFlow, Identity, Incompressible,
     IncompressibleAreaPreserving, NormalMobility, SurfaceDiffusion, WeightedDiffusion,
 };
 use flow_core::geometry::PeriodicGrid;
@@ -43,6 +43,14 @@ impl Normal {
             }
             Self::SurfaceDiffusion => Box::new(SurfaceDiffusion::new(grid, derivative)),
         }
+    }
+}
+
+/// Rate of the area at the state evaluated last, per length: of that of the grid where the flow keeps it.
+pub fn area_rate(flow: &mut GradientFlow) -> f64 {
+    match flow.area_force().map(<[f64]>::to_vec) {
+        Some(force) => flow.current().mean_of_product(flow.normal_velocity(), &force),
+        None => flow.current().mean(flow.normal_velocity()),
     }
 }
 

@@ -38,6 +38,11 @@ pub trait DensityMobility: Debug + Send + Sync {
     /// Order of 𝓖 as a differential operator.
     fn order(&self) -> usize;
 
+    /// Whether it moves the density at all, and without derivatives: then what errors leave fades no faster than the potential relaxes it.
+    fn relaxes(&self) -> bool {
+        self.order() == 0 && !self.is_zero()
+    }
+
     /// Second-order approximation of 𝓖 at the state `at`, at node `node` of `nodes` graded alike: weights of the left neighbour, the
     /// node, the right one.
     fn three_points(&self, at: &CurveFields, node: usize, nodes: usize) -> [f64; 3];

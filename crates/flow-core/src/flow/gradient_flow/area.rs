@@ -27,7 +27,7 @@ impl AreaForce {
     }
 
     /// Tells it the mobility at `place`.
-    fn tell(&mut self, map: &mut FlowMap, place: &mut Place) {
+    pub fn tell(&mut self, map: &mut FlowMap, place: &mut Place) {
         let Some(force) = place.mobility.area_force() else { return };
         self.area.gradient(&place.fields, &mut self.gradient);
         map.force(&place.fields, &self.gradient.spectra, self.gradient.by_length, force);
@@ -39,22 +39,6 @@ impl GradientFlow {
     /// its product with the normal velocity is zero. None where the mean of the velocity itself is, or no area is kept.
     pub fn area_force(&mut self) -> Option<&[f64]> {
         self.current.mobility.area_force().map(|force| &*force)
-    }
-
-    /// Prepares the mobility at the state at hand.
-    pub(super) fn set_current_mobility(&mut self) {
-        if let Some(area) = &mut self.area {
-            area.tell(&mut self.descent.map, &mut self.current);
-        }
-        self.current.set_mobility();
-    }
-
-    /// The same at the linearisation.
-    pub(super) fn set_frozen_mobility(&mut self) {
-        if let Some(area) = &mut self.area {
-            area.tell(&mut self.descent.map, &mut self.frozen);
-        }
-        self.frozen.set_mobility();
     }
 
     /// Where the flow keeps the area, takes what it costs for what it does at `area` from now on, a constant without a force (F21). Left in,

@@ -1,5 +1,6 @@
 //! From a gradient to forces, velocities and rates: the operator −𝓚. See `THEORY.md`, eq. (F6).
 
+use super::area::AreaForce;
 use crate::flow::curve_fields::CurveFields;
 use crate::flow::density_mobility::DensityMobility;
 use crate::flow::flow_map::FlowMap;
@@ -21,8 +22,8 @@ pub struct Place {
 }
 
 impl Place {
-    /// Prepares the mobility at the fields.
-    pub fn set_mobility(&mut self) {
+    /// Prepares the mobility at the fields, once it knows the area there.
+    fn set_mobility(&mut self) {
         self.fault = self.mobility.set(&self.fields).err();
     }
 
@@ -63,6 +64,8 @@ pub struct Descent {
     pub layout: Layout,
     pub map: FlowMap,
     pub density_mobilities: Vec<Box<dyn DensityMobility>>,
+    /// What the normal mobility must know of the area; none where it does without.
+    pub area: Option<AreaForce>,
     pub gradient: IntrinsicGradient,
     pub force: Vec<f64>,
     pub velocity: Vec<f64>,
@@ -70,9 +73,23 @@ pub struct Descent {
 }
 
 impl Descent {
+    /// Fields of the densities that are only carried along.
+    pub fn carried_fields(&self) -> impl Iterator<Item = usize> {
+        let densities = self.density_mobilities.iter().enumerate();
+        densities.filter(|(_, mobility)| mobility.is_zero()).map(|(density, _)| density + 1)
+    }
+
     /// Whether a density is only carried along, over nodes that are not material.
     pub fn carries_over_nodes(&self) -> bool {
-        self.layout.metric().is_none() && self.density_mobilities.iter().any(|mobility| mobility.is_zero())
+        self.layout.metric().is_none() && self.carried_fields().next().is_some()
+    }
+
+    /// Prepares the mobility at the fields of `place`.
+    pub fn set_mobility(&mut self, place: &mut Place) {
+        if let Some(area) = &mut self.area {
+            area.tell(&mut self.map, place);
+        }
+        place.set_mobility();
     }
 
     /// Force of the gradient at hand.

@@ -76,8 +76,6 @@ pub struct GradientFlow {
     /// The state evaluated last, and that of the linearisation.
     current: Place,
     frozen: Place,
-    /// What holds the area at either; none where the mobility does without.
-    area: Option<AreaForce>,
     /// Whether there is a linearisation.
     linearised: bool,
     /// The tension at the linearisation.
@@ -115,6 +113,7 @@ impl GradientFlow {
             layout,
             map,
             density_mobilities,
+            area,
             gradient: IntrinsicGradient { spectra, by_length: 0.0 },
             force: vec![0.0; layout.nodes()],
             velocity: vec![0.0; layout.nodes()],
@@ -127,7 +126,6 @@ impl GradientFlow {
             descent,
             current: Place { fields, mobility: normal_mobility, fault: None },
             frozen,
-            area,
             linearised: false,
             tension,
             sliding,
@@ -150,8 +148,8 @@ impl GradientFlow {
     /// If `state` is no spectral vector of the layout.
     pub fn spectral_dissipation(&mut self, state: &[f64]) -> Rate {
         let energy = self.spectral_gradient(state);
-        self.set_current_mobility();
         let Self { descent, current, .. } = self;
+        descent.set_mobility(current);
         descent.descend(current);
         let of_the_curve = descent.curve_dissipation(&current.fields);
         Rate { energy, dissipation: descent.add_density_dissipation(&current.fields, of_the_curve) }
@@ -177,7 +175,7 @@ impl GradientFlow {
     /// If `state` is no spectral vector of the layout.
     pub fn holds_curve(&mut self, state: &[f64]) -> bool {
         self.set_current(state);
-        self.set_current_mobility();
+        self.descent.set_mobility(&mut self.current);
         self.current.fault.is_none() && self.current.mobility.holds_curve()
     }
 
@@ -233,7 +231,7 @@ impl GradientFlow {
         let (grid, derivative) = self.descent.map.grid_and_derivative();
         self.frozen.fields.set(state, grid, derivative);
         self.energy.linearise(&self.frozen.fields, &mut self.descent.gradient);
-        self.set_frozen_mobility();
+        self.descent.set_mobility(&mut self.frozen);
         self.linearised = true;
         self.freeze_sliding();
         self.freeze_tension();

@@ -55,9 +55,9 @@ impl GradientFlow {
             // Before the terms: they leave another gradient behind.
             let Self { current, descent, energy, .. } = self;
             density = density.min(seconds(|| _ = descent.add_density_dissipation(&current.fields, 0.0)));
-            let Descent { force, velocity, gradient, .. } = descent;
             // Where the mobility is not defined, that it finds so is all that it costs.
-            set = set.min(seconds(|| current.set_mobility()));
+            set = set.min(seconds(|| descent.set_mobility(current)));
+            let Descent { force, velocity, gradient, .. } = descent;
             apply = apply.min(seconds(|| current.drive(force, velocity)));
             energy.measure_terms(&current.fields, state, gradient, &mut terms);
         }

@@ -29,6 +29,11 @@ impl GradientFlow {
         &self.descent.density_mobilities
     }
 
+    /// Fields of the densities that are only carried along.
+    pub(in crate::flow) fn carried_fields(&self) -> impl Iterator<Item = usize> {
+        self.descent.carried_fields()
+    }
+
     /// Whether a density is only carried along, over nodes that are not material: then nothing makes good what errors leave of it.
     #[must_use]
     pub fn carries_over_nodes(&self) -> bool {

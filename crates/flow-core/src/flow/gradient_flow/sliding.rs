@@ -13,7 +13,9 @@ const MOST_TURNED: f64 = 10.0;
 /// The tangential velocity W at a linearisation.
 #[derive(Debug)]
 pub struct FrozenSliding {
-    /// W at the flux points; empty where J does without it.
+    /// Fields whose transport is in J.
+    carried: Vec<usize>,
+    /// W at the flux points; empty where there are none of these.
     velocity: Vec<f64>,
     /// γ of the operator I − γJ that is being solved.
     gamma: f64,
@@ -26,8 +28,9 @@ impl FrozenSliding {
     pub fn new(descent: &Descent, mobility: &dyn NormalMobility) -> Self {
         // W is mostly what stages have left in short waves where V has two derivatives more than the force, and solves take longer for it.
         let counts = descent.carries_over_nodes() && !mobility.is_minus_laplacian();
-        let velocity = if counts { vec![0.0; descent.layout.nodes()] } else { Vec::new() };
-        Self { velocity, gamma: 0.0, counts }
+        let carried = descent.carried_fields().filter(|_| counts).collect();
+        let nodes = if counts { descent.layout.nodes() } else { 0 };
+        Self { carried, velocity: vec![0.0; nodes], gamma: 0.0, counts }
     }
 }
 
@@ -35,7 +38,7 @@ impl GradientFlow {
     /// Takes W at the linearisation, whose gradient is at hand.
     pub(super) fn freeze_sliding(&mut self) {
         let Self { descent, frozen, sliding, .. } = self;
-        if !sliding.velocity.is_empty() {
+        if !sliding.carried.is_empty() {
             descent.descend(frozen);
             descent.map.set_sliding(&frozen.fields, &descent.velocity, &mut sliding.velocity);
             self.set_sliding_step(self.sliding.gamma);
@@ -53,13 +56,11 @@ impl GradientFlow {
     /// what Newton's method leaves of it.
     pub(super) fn add_sliding(&mut self, rates: &mut [f64]) {
         let Self { energy, descent, sliding, .. } = self;
-        if sliding.velocity.is_empty() || !sliding.counts {
+        if !sliding.counts {
             return;
         }
         let (layout, motion) = (SpectralLayout::new(descent.layout), energy.field_motion());
-        let densities = descent.density_mobilities.iter().enumerate();
-        for (density, _) in densities.filter(|(_, mobility)| mobility.is_zero()) {
-            let field = density + 1;
+        for &field in &sliding.carried {
             let rate = &mut layout.spectra_mut(rates)[layout.spectrum(field)];
             descent.map.add_transport(&motion[descent.layout.field(field)], &sliding.velocity, rate);
         }

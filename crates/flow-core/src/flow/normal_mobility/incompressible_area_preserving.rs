@@ -10,8 +10,8 @@ use crate::operators::Derivative;
 const ROUND: f64 = 1e-24;
 
 /// Every piece of the curve keeps its length, and the area is held: V = 𝓘f − (⟨𝓘f, a⟩/⟨𝓘a, a⟩) 𝓘a with 𝓘 of
-/// [`Incompressible`](super::Incompressible) and the force a of the area on the grid, 1 in the continuum. See `THEORY.md`, eq. (F10). On a circle 𝓘a = 0; on one that is run through once 𝓑 = 0 too: of
-/// all curves of its length that one alone has its area.
+/// [`Incompressible`](super::Incompressible) and the force a of the area on the grid, 1 in the continuum. See `THEORY.md`, eq. (F10). On a
+/// circle 𝓘a = 0; on one that is run through once 𝓑 = 0 too: of all curves of its length that one alone has its area.
 #[derive(Clone, Debug)]
 pub struct IncompressibleAreaPreserving {
     incompressible: Incompressible,

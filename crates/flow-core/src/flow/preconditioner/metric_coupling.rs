@@ -34,7 +34,6 @@ impl MetricCoupling {
     pub fn of(flow: &GradientFlow) -> Option<Self> {
         let layout = flow.spectral_layout();
         let (state, nodes) = (vec![0.0; layout.len()], vec![0.0; flow.layout().nodes()]);
-        let densities = flow.density_mobilities().iter().enumerate();
         Some(Self {
             metric: flow.layout().metric()?,
             modes: layout.modes(),
@@ -42,7 +41,7 @@ impl MetricCoupling {
             made: state.clone(),
             rest: state.clone(),
             image: state,
-            carried: densities.filter(|(_, of)| of.is_zero()).map(|(i, _)| i + 1).collect(),
+            carried: flow.carried_fields().collect(),
             turning: nodes.clone(),
             velocity: nodes.clone(),
             values: nodes,

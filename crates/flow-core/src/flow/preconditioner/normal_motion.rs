@@ -62,10 +62,9 @@ impl NormalMotion {
     pub fn of(flow: &GradientFlow) -> Option<Self> {
         let layout = flow.spectral_layout();
         let (nodes, state) = (vec![0.0; flow.layout().nodes()], vec![0.0; layout.len()]);
-        let densities = flow.density_mobilities().iter().enumerate();
         Self::serves(flow).then(|| Self {
             gamma: 0.0,
-            carried: densities.filter(|(_, of)| of.is_zero()).map(|(i, _)| i + 1).collect(),
+            carried: flow.carried_fields().collect(),
             embedding: Embedding::graded(flow.layout().nodes(), flow.grading().cloned()),
             steps: [nodes.clone(), nodes.clone()],
             tangent: [nodes.clone(), nodes.clone()],

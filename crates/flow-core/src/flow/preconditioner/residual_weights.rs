@@ -14,12 +14,6 @@ use crate::geometry::vectors::multiply;
 /// The residual of a density that exchanges counts this much more.
 const OF_EXCHANGE: f64 = 16.0;
 
-/// Whether a density moves without derivatives, though not only with the curve.
-fn relaxes(flow: &GradientFlow, density: usize) -> bool {
-    let mobility = &flow.density_mobilities()[density];
-    mobility.order() == 0 && !mobility.is_zero()
-}
-
 /// Weights by coefficient of a spectral state, and their inverses.
 #[derive(Clone, Debug)]
 pub struct ResidualWeights {
@@ -60,7 +54,8 @@ impl ResidualWeights {
             }
             let (inverses, _) = self.inverses[entries.clone()].as_chunks_mut::<2>();
             let (weights, _) = self.weights[entries].as_chunks_mut::<2>();
-            let more = if field > 0 && relaxes(flow, field - 1) { OF_EXCHANGE } else { 1.0 };
+            let more =
+                if field > 0 && flow.density_mobilities()[field - 1].relaxes() { OF_EXCHANGE } else { 1.0 };
             // A loop of its own, so that the roots are taken in whole vector registers.
             for ((inverse, weight), stiffness) in inverses.iter_mut().zip(weights).zip(&self.stiffness) {
                 let half = (1.0 + stiffness).sqrt();

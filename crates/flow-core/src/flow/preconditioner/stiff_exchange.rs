@@ -34,8 +34,7 @@ impl StiffExchange {
     pub fn of(flow: &GradientFlow) -> Option<Self> {
         let (layout, state) = (flow.layout(), vec![0.0; flow.spectral_layout().len()]);
         let exchanges = |field: &usize| {
-            let mobility = &flow.density_mobilities()[field - 1];
-            !mobility.is_zero() && mobility.order() == 0 && !flow.energy_terms().may_be_stiff(*field)
+            flow.density_mobilities()[field - 1].relaxes() && !flow.energy_terms().may_be_stiff(*field)
         };
         let fields: Vec<usize> = (1..layout.fields()).filter(exchanges).collect();
         let (count, nodes) = (fields.len(), layout.nodes());

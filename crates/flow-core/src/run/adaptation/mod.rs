@@ -130,19 +130,21 @@ impl Adaptation {
         (due || !resolved).then_some(Glance { field, part, slides, age })
     }
 
-    /// Whether other nodes are better for the spectral `state` of `membrane` at `time`, on those of `mesh`, after a `glance`.
+    /// Whether other nodes are better for the spectral `state` of `membrane` at `time`, on those of `mesh`, after a `glance`; `room` for a
+    /// state.
     pub(super) fn look(
         &self,
         membrane: &mut Membrane,
         (time, state): (f64, &[f64]),
         mesh: &Mesh,
         glance: Glance,
+        room: &mut [f64],
     ) -> Look {
         let Glance { field, part, slides, age } = glance;
         let (layout, family) = (membrane.layout(), self.family(membrane));
         let resolved = part <= self.bound;
         let equidistant = self.fewest_equidistant(membrane, state);
-        let least = equidistant * sparsest_in(membrane, state);
+        let least = equidistant * sparsest_in(membrane, state, room);
         let resolved = resolved && mesh.nodes as f64 >= least;
         let margin = match (resolved, self.grades) {
             (false, _) => MARGIN_OF_MORE,
@@ -204,17 +206,17 @@ fn sparsest(grading: Option<&Arc<Grading>>) -> f64 {
     grading.map_or(1.0, |grading| largest(grading.weight()))
 }
 
-/// The same in the spectral `state`, whose metric may be a field.
-fn sparsest_in(membrane: &mut Membrane, state: &[f64]) -> f64 {
+/// The same in the spectral `state`, whose metric may be a field; `room` for a state.
+pub(super) fn sparsest_in(membrane: &mut Membrane, state: &[f64], room: &mut [f64]) -> f64 {
     let (layout, flow) = (membrane.layout(), membrane.flow());
     let Some(metric) = layout.metric() else { return sparsest(flow.grading()) };
     let spectral = SpectralLayout::new(layout);
-    let mut values = vec![0.0; layout.nodes()];
-    flow.grid_mut().synthesise(&spectral.spectra(state)[spectral.spectrum(metric)], &mut values);
-    largest(&values) / state[spectral.length_index()]
+    let values = &mut room[..layout.nodes()];
+    flow.grid_mut().synthesise(&spectral.spectra(state)[spectral.spectrum(metric)], values);
+    largest(values) / state[spectral.length_index()]
 }
 
-pub(super) fn largest(values: &[f64]) -> f64 {
+fn largest(values: &[f64]) -> f64 {
     values.iter().copied().fold(0.0, f64::max)
 }
 

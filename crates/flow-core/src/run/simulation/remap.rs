@@ -6,7 +6,7 @@ use super::Simulation;
 use super::discretised::Discretised;
 use crate::energies::TermFault;
 use crate::integrator::{Factorisation, Finish, Multistep, Problem, Stepper};
-use crate::run::adaptation::{Look, Plan, Way, largest};
+use crate::run::adaptation::{Look, Plan, Way, sparsest_in};
 use crate::run::failure::Failure;
 use crate::run::membrane::Membrane;
 use crate::run::mesh::Mesh;
@@ -45,20 +45,20 @@ impl Simulation {
         let state = self.integration.stepper().state();
         let Some(glance) = adaptation.glance(&mut self.on.membrane, state, age) else { return };
         let clock = Instant::now();
-        let (served, failure) =
-            match adaptation.look(&mut self.on.membrane, (time, state), &self.on.mesh, glance) {
-                Look::Serve => (true, None),
-                Look::Change(plan) => {
-                    let (fewer, more) =
-                        (plan.mesh.nodes < self.on.mesh.nodes, plan.mesh.nodes > self.on.mesh.nodes);
-                    match self.remap(plan, time, energy) {
-                        Err(Some(failure)) if more => (false, Some(failure)),
-                        taken => (taken.is_ok() || fewer, None),
-                    }
+        let Discretised { membrane, mesh, scratch, .. } = &mut self.on;
+        let (served, failure) = match adaptation.look(membrane, (time, state), mesh, glance, scratch) {
+            Look::Serve => (true, None),
+            Look::Change(plan) => {
+                let (fewer, more) =
+                    (plan.mesh.nodes < self.on.mesh.nodes, plan.mesh.nodes > self.on.mesh.nodes);
+                match self.remap(plan, time, energy) {
+                    Err(Some(failure)) if more => (false, Some(failure)),
+                    taken => (taken.is_ok() || fewer, None),
                 }
-                Look::Unresolved => (false, None),
-                Look::Hopeless(error) => (false, Some(error.into())),
-            };
+            }
+            Look::Unresolved => (false, None),
+            Look::Hopeless(error) => (false, Some(error.into())),
+        };
         self.record.counters.unresolved_steps += u64::from(!served);
         let seconds = clock.elapsed().as_secs_f64();
         self.record.counters.integration_seconds += seconds;
@@ -70,16 +70,18 @@ impl Simulation {
 
     /// On nodes that the scene fixes: counts steps that they are far from resolving.
     fn count_unresolved(&mut self) {
-        if self.counters().steps.is_multiple_of(FIXED_LOOKS) {
-            let family = self.on.membrane.flow().derivative().family();
-            let (layout, state) = (self.on.membrane.layout(), self.integration.stepper().state());
-            let part = unresolved(layout, state, layout.nodes(), family);
-            let length = state[self.on.membrane.flow().spectral_layout().length_index()];
-            let sparsest = self.on.membrane.flow().current().weight().map_or(1.0, largest);
-            let distance = sparsest * length / layout.nodes() as f64;
-            if part > coarse(self.tolerance) || distance > self.largest_distance {
-                self.record.counters.unresolved_steps += FIXED_LOOKS;
-            }
+        if !self.counters().steps.is_multiple_of(FIXED_LOOKS) {
+            return;
+        }
+        let Discretised { membrane, scratch, .. } = &mut self.on;
+        let (layout, state) = (membrane.layout(), self.integration.stepper().state());
+        let family = membrane.flow().derivative().family();
+        let misses_fields = unresolved(layout, state, layout.nodes(), family) > coarse(self.tolerance);
+        let length = state[membrane.flow().spectral_layout().length_index()];
+        let mut distance = || sparsest_in(membrane, state, scratch) * length / layout.nodes() as f64;
+        let misses_positions = self.largest_distance.is_finite() && distance() > self.largest_distance;
+        if misses_fields || misses_positions {
+            self.record.counters.unresolved_steps += FIXED_LOOKS;
         }
     }
 

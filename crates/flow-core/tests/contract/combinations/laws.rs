@@ -4,6 +4,7 @@ use flow_core::flow::Rate;
 use flow_core::geometry::{Complex64, Layout, PeriodicGrid};
 use flow_core::run::{Membrane, Scene, Setup};
 
+use crate::mobilities::area_rate;
 use crate::vectors::{distance, largest, noise, pair, size};
 
 /// The flow of a scene, and its initial state at the nodes.
@@ -107,8 +108,7 @@ impl Flowing {
         let keeps = flow.normal_mobility().keeps();
         let force = largest(flow.normal_force());
         let length = self.rate[layout.length_index()].abs() / self.y[layout.length_index()];
-        let of_area = flow.area_force().map_or_else(|| vec![1.0; layout.nodes()], <[f64]>::to_vec);
-        let area = flow.current().mean_of_product(flow.normal_velocity(), &of_area).abs();
+        let area = area_rate(flow).abs();
         let length = length / (largest(flow.current().at_nodes(0)) * force);
         Kept {
             turning,
