@@ -1,4 +1,5 @@
-//! Surface diffusion of a curve with densities, as an equation of the normal velocity. See `THEORY.md`, eq. (O11).
+//! Surface diffusion of a curve with densities, and any flow of one with densities that exchange, as an equation of the normal velocity.
+//! See `THEORY.md`, eq. (O11).
 //!
 //! A residual is r = A u + (0, ν) + c, with the normal velocity u that makes its curvature and its length, by the displacement that its
 //! change of the tangent makes, and c what none makes. What the force makes of a normal velocity is local, whatever the gauge is, where
@@ -39,25 +40,31 @@ pub struct NormalMotion {
     spectrum: Vec<Complex64>,
 }
 
+/// Whether densities of `flow` exchange with the surroundings.
+fn exchanges(flow: &GradientFlow) -> bool {
+    flow.density_mobilities().iter().any(|density| density.relaxes())
+}
+
 impl NormalMotion {
     /// Whether `flow` is one of these. Second differences are too far from the displacements for it: (O2) takes fewer iterations there
     /// where the densities do nothing to the curve.
     #[must_use]
     pub fn serves(flow: &GradientFlow) -> bool {
-        flow.normal_mobility().is_minus_laplacian()
-            && flow.layout().densities() > 0
+        (flow.normal_mobility().is_minus_laplacian() && flow.layout().densities() > 0 || exchanges(flow))
             && flow.layout().metric().is_none()
             && flow.derivative().family() != DerivativeFamily::Central2
             && StiffExchange::of(flow).is_none()
     }
 
-    /// Whether it does so from the first band on: densities that are only carried keep the errors of other solves.
+    /// Whether it does so from the first band on: densities that are only carried keep the errors of other solves, and what a motion makes
+    /// of one that exchanges is as stiff as its slopes.
     #[must_use]
     pub fn is_needed(flow: &GradientFlow) -> bool {
-        Self::serves(flow) && flow.carries_over_nodes()
+        let at_once = flow.carries_over_nodes() || !flow.normal_mobility().is_minus_laplacian();
+        at_once && Self::serves(flow)
     }
 
-    /// For the states of `flow`; none but for surface diffusion of a curve with densities, over nodes that are not material.
+    /// For the states of `flow`; none but where it [`serves`](Self::serves).
     #[must_use]
     pub fn of(flow: &GradientFlow) -> Option<Self> {
         let layout = flow.spectral_layout();

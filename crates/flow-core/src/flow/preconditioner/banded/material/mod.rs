@@ -29,8 +29,9 @@ pub struct MaterialPart<const F: usize, const B: usize> {
     /// Whether 𝓑 is −`Δ_s`, or Id.
     is_surface_diffusion: bool,
     matrix: CyclicBanded<B>,
-    /// Root of the ratio of the symbols, by field and mode.
-    roots: Vec<f64>,
+    /// Factors of right-hand sides and of solutions that take the symbols of the band to the right ones, by field and mode.
+    rows: Vec<f64>,
+    columns: Vec<f64>,
     coefficients: Coefficients<F>,
     /// Minus the tension at the nodes; zero unless 𝓑 is −`Δ_s`.
     stretching: Vec<f64>,
@@ -58,7 +59,8 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
             length: 1.0,
             is_surface_diffusion: diffuses(flow),
             matrix: CyclicBanded::in_blocks(coarse * F, F),
-            roots: vec![1.0; F * grid.modes()],
+            rows: vec![1.0; F * grid.modes()],
+            columns: vec![1.0; F * grid.modes()],
             coefficients: Coefficients::new(nodes, grid),
             stretching: vec![0.0; coarse],
             motion_rows: vec![[[[0.0; F]; 3]; F]; coarse],
@@ -85,9 +87,10 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
         }
     }
 
-    /// Roots of the ratio of the symbols with mean coefficients, by second differences, with 𝓑 = Id unless it is that of
-    /// surface diffusion or holds the curve, to the right ones.
-    fn set_roots(&mut self, flow: &GradientFlow, gamma: f64) {
+    /// Factors whose product is the ratio of the symbols with mean coefficients, by second differences, with 𝓑 = Id unless it is that of
+    /// surface diffusion or holds the curve, to the right ones. Where the curvature follows densities, what a velocity makes of it
+    /// must be right, k² for k² by second differences, however stiff they are; alone it may be shared so that the band stays symmetric.
+    fn set_factors(&mut self, flow: &GradientFlow, gamma: f64) {
         let (nodes, modes, length) =
             (self.window.grid.nodes() as f64, self.window.grid.modes(), flow.symbol_length());
         let moves_freely = moves_freely(flow);
@@ -105,7 +108,14 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
                     1.0 + gamma * mobility * (stiffness * laplacian / (length * length) + mean)
                 };
                 let right = symbol(mobility_symbol(flow, field, exact, length), exact);
-                self.roots[field * modes + mode] = (symbol(band, difference) / right).sqrt();
+                let ratio = symbol(band, difference) / right;
+                let column = match (F, field) {
+                    (1, _) => ratio.sqrt(),
+                    (_, 0) if exact > 0.0 => difference / exact,
+                    _ => 1.0,
+                };
+                self.columns[field * modes + mode] = column;
+                self.rows[field * modes + mode] = ratio / column;
             }
         }
     }
@@ -125,7 +135,7 @@ impl<const F: usize, const B: usize> Banded for MaterialPart<F, B> {
             self.local.set(metric);
         }
         self.coefficients.set(flow, &mut self.window.grid);
-        self.set_roots(flow, gamma);
+        self.set_factors(flow, gamma);
         self.set_tension(flow);
         self.set_stencils(&flow.energy_terms().implicit_costs());
         self.fill(flow, gamma);
@@ -135,7 +145,7 @@ impl<const F: usize, const B: usize> Banded for MaterialPart<F, B> {
     fn apply(&mut self, spectra: &mut [Complex64]) {
         let (nodes, modes) = (self.window.grid.nodes(), self.window.grid.modes());
         for (field, values) in self.values.chunks_exact_mut(nodes).enumerate() {
-            self.window.synthesise(spectra, field, &self.roots[field * modes..], values);
+            self.window.synthesise(spectra, field, &self.rows[field * modes..], values);
             if field > 0 {
                 multiply(values, &self.local.inverse);
                 scale(values, 1.0 / self.length);
@@ -149,7 +159,7 @@ impl<const F: usize, const B: usize> Banded for MaterialPart<F, B> {
             }
             // Where J makes no mean, its local part does: the mean stays as it was.
             let place = (field, self.keeps_mean[field]);
-            self.window.transform(values, place, &self.roots[field * modes..], spectra);
+            self.window.transform(values, place, &self.columns[field * modes..], spectra);
         }
     }
 }
