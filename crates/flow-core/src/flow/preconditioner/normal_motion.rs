@@ -56,12 +56,10 @@ impl NormalMotion {
             && StiffExchange::of(flow).is_none()
     }
 
-    /// Whether it does so from the first band on: densities that are only carried keep the errors of other solves, and what a motion makes
-    /// of one that exchanges is as stiff as its slopes.
+    /// Whether it does so from the first band on: densities that are only carried keep the errors of other solves.
     #[must_use]
     pub fn is_needed(flow: &GradientFlow) -> bool {
-        let at_once = flow.carries_over_nodes() || !flow.normal_mobility().is_minus_laplacian();
-        at_once && Self::serves(flow)
+        Self::serves(flow) && flow.carries_over_nodes()
     }
 
     /// For the states of `flow`; none but where it [`serves`](Self::serves).
