@@ -6,6 +6,8 @@ use serde::{Deserialize, Serialize};
 const MOST_MARKS: usize = 9;
 /// Rates, each above the one before, that tell a growth from noise.
 const RATES: usize = 4;
+/// A rate that is so many times all before it tells one too: those may have been noise.
+const SURGE: f64 = 10.0;
 
 /// What a quiet flow has lost at some times, as many steps apart each.
 ///
@@ -52,18 +54,29 @@ impl Departure {
         }
     }
 
-    /// What is lost in the time `left` if the losses go on to grow as they have all the while; 0 if they have not.
+    /// What is lost in the time `left` if the losses go on to grow as they have all the while, or have done now; 0 if they have not.
     #[must_use]
     pub fn to_come(&self, left: f64) -> f64 {
         let rate = |pair: &[(f64, f64)]| (pair[1].1 - pair[0].1) / (pair[1].0 - pair[0].0);
         let middle = |pair: &[(f64, f64)]| 0.5 * (pair[0].0 + pair[1].0);
         let pairs = || self.marks.windows(2);
-        let (Some(first), Some(last)) = (pairs().next(), pairs().next_back()) else { return 0.0 };
-        let grows = pairs().map(rate).is_sorted_by(|before, after| before < after);
-        if !grows || pairs().len() < RATES || rate(first) <= 0.0 {
+        if pairs().len() < RATES {
             return 0.0;
         }
-        let growth = (rate(last) / rate(first)).ln() / (middle(last) - middle(first));
+        let before = || pairs().take(pairs().len() - 1);
+        let highest = before().max_by(|a, b| rate(a).total_cmp(&rate(b)));
+        let (Some(first), Some(last), Some(highest)) = (pairs().next(), pairs().next_back(), highest) else {
+            return 0.0;
+        };
+        let grows = pairs().map(rate).is_sorted_by(|before, after| before < after);
+        let since = if grows && rate(first) > 0.0 {
+            first
+        } else if rate(highest) > 0.0 && rate(last) > SURGE * rate(highest) {
+            highest
+        } else {
+            return 0.0;
+        };
+        let growth = (rate(last) / rate(since)).ln() / (middle(last) - middle(since));
         rate(last) * (growth * left).exp_m1() / growth
     }
 }
@@ -100,5 +113,12 @@ mod tests {
         assert_eq!(to_come(100, |time| (-0.01 * time).exp()), 0.0);
         assert_eq!(to_come(100, |time| (time - 50.0).abs()), 0.0);
         assert_eq!(to_come(0, |_| 1.0), 0.0);
+    }
+
+    #[test]
+    fn a_rate_far_above_the_noise_before_it_tells_a_growth() {
+        let noisy = |last: f64| move |time: f64| if time < 5.5 { 1e-9 * (3.0 * time).cos() } else { last };
+        assert!(to_come(6, noisy(1e-7)) > 1e3);
+        assert!(to_come(6, noisy(2e-9)) == 0.0);
     }
 }

@@ -39,8 +39,8 @@ pub struct Setup {
     pub(super) mesh: Mesh,
     /// Chooses them, if the scene leaves that to the program.
     pub(super) adaptation: Option<Adaptation>,
-    /// Part of the initial data that the nodes miss.
-    pub(super) missed: f64,
+    /// Whether the nodes miss so much of the initial data that no step counts as resolved.
+    pub(super) misses_data: bool,
     /// What the energies refer to.
     pub(super) initial: Initial,
     /// Names of the densities.
@@ -71,7 +71,7 @@ impl Setup {
     pub(super) fn of(scene: &Scene, own: OwnTerms) -> Result<Self, SetupError> {
         let curve = shape(&scene.curve.shape).by_arc_length()?;
         let initial_length = curve.length();
-        let (InitialState { mesh, grading, curve, state, closure_defect }, missed) =
+        let (InitialState { mesh, grading, curve, state, closure_defect }, misses_data) =
             InitialState::of(scene, &curve, &own)?;
         let layout = layout(scene, mesh.nodes);
         let area = area(&state, layout, &curve, grading.clone());
@@ -101,7 +101,7 @@ impl Setup {
             gauges,
             mesh,
             adaptation,
-            missed,
+            misses_data,
             initial,
             densities: scene.density.iter().map(|density| density.name.clone()).collect(),
         })

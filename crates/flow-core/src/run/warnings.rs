@@ -4,7 +4,7 @@ use std::fmt::{self, Display, Formatter};
 
 use super::constant_energy::energy_scale;
 use super::record::Record;
-use super::scene::Scene;
+use super::scene::{Nodes, Scene};
 use super::simulation::ENERGY_TOLERANCE_SHARE;
 use crate::integrator::ENERGY_ROUNDING;
 
@@ -12,11 +12,14 @@ use crate::integrator::ENERGY_ROUNDING;
 /// within their bounds have lost it together. On the shipped scenes it is below two.
 const OUT_OF_BALANCE: f64 = 3.0;
 
+/// Name of the scene that a record holds.
+const RESOLVED: &str = "the scene of the result";
+
 /// A reason to doubt a result, with its numbers.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Doubt<'a> {
-    /// The nodes did not resolve most of the steps.
-    Unresolved { unresolved: u64, steps: u64 },
+    /// The nodes, which the program may have chosen, did not resolve most of the steps.
+    Unresolved { unresolved: u64, steps: u64, chosen: bool },
     /// The energy lost and the dissipation are apart by this part of the energy, of a run with these terms from outside its scene.
     OutOfBalance { part: f64, tolerance: f64, own_terms: &'a [String] },
     /// A constant of the motion in the energy has a rounding of this part of what the flow can change.
@@ -27,7 +30,10 @@ impl Doubt<'_> {
     /// What helps. A gradient that is wrong is out of balance at any tolerance, and takes the more steps the smaller it is.
     pub(super) fn remedy(self) -> &'static str {
         match self {
-            Self::Unresolved { .. } => "more accuracy.nodes, or accuracy.nodes = \"auto\"",
+            Self::Unresolved { chosen: false, .. } => "more accuracy.nodes, or accuracy.nodes = \"auto\"",
+            Self::Unresolved { chosen: true, .. } => {
+                "smoother initial data, or an energy with a cost of slopes"
+            }
             Self::Drowned { .. } => "an energy without that constant, which moves nothing",
             Self::OutOfBalance { own_terms: [], .. } => "a smaller accuracy.tolerance",
             Self::OutOfBalance { .. } => {
@@ -41,7 +47,7 @@ impl Doubt<'_> {
 impl Display for Doubt<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Unresolved { unresolved, steps } => write!(
+            Self::Unresolved { unresolved, steps, .. } => write!(
                 f,
                 "{unresolved} of the {steps} steps were not resolved by their nodes, and the result depends on these"
             )?,
@@ -79,14 +85,16 @@ pub(super) fn doubts(record: &Record) -> impl Iterator<Item = Doubt<'_>> {
 /// Of a run most of which its nodes did not resolve.
 fn unresolved(record: &Record) -> Option<Doubt<'_>> {
     let (unresolved, steps) = (record.counters.unresolved_steps, record.counters.steps);
-    (2 * unresolved > steps).then_some(Doubt::Unresolved { unresolved, steps })
+    let scene = || Scene::parse(&record.resolved_scene, RESOLVED);
+    let chosen = || scene().is_ok_and(|scene| scene.accuracy.nodes == Nodes::Auto);
+    (2 * unresolved > steps).then(|| Doubt::Unresolved { unresolved, steps, chosen: chosen() })
 }
 
 /// Of a run that has not lost the energy that it dissipated, or whose energy does not tell.
 fn of_energy(record: &Record) -> [Option<Doubt<'_>>; 2] {
     let (Some(first), Some(last)) = (record.frames.first(), record.frames.last()) else { return [None; 2] };
     // The scene of a file of another version may not be readable here.
-    let Ok(scene) = Scene::parse(&record.resolved_scene, "the scene of the result") else { return [None; 2] };
+    let Ok(scene) = Scene::parse(&record.resolved_scene, RESOLVED) else { return [None; 2] };
     let tolerance = scene.accuracy.tolerance;
     let scale = energy_scale(&scene, record);
     let largest = scale.of(first.energy).max(scale.of(last.energy));

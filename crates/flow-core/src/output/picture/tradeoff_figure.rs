@@ -149,16 +149,20 @@ impl Draw for Figure<'_> {
     }
 }
 
+/// Dashes of the densities, and the gaps between them, for two colours in turn: seven can be told apart.
+const DASHES: [[f64; 2]; 8] =
+    [[14.0, 8.0], [7.0, 7.0], [4.0, 6.0], [18.0, 5.0], [30.0, 6.0], [3.0, 4.0], [9.0, 3.0], [24.0, 14.0]];
+
 /// Curve and curvature, the densities, energy and length; what is drawn later lets the lines below show through.
 fn pen(series: usize, densities: usize) -> Pen {
     let dots = |colour| Pen { colour, width: WIDTH + 1.5, pattern: Pattern::Dots { spacing: 9.0 } };
     match series {
         0 => Pen::solid(INK, WIDTH),
         1 => Pen::solid(SKY, WIDTH),
-        k if k < 2 + densities => match (k - 2) % 2 {
-            0 => Pen::dashed(SEA, WIDTH, 14.0, 8.0),
-            _ => Pen::dashed(ORANGE, WIDTH, 7.0, 7.0),
-        },
+        k if k < 2 + densities => {
+            let [dash, gap] = DASHES[(k - 2) % DASHES.len()];
+            Pen::dashed(if k % 2 == 0 { SEA } else { ORANGE }, WIDTH, dash, gap)
+        }
         k if k == 2 + densities => Pen::dashed(VERMILION, WIDTH, 24.0, 12.0),
         _ => dots(ROSE),
     }
@@ -169,4 +173,17 @@ fn logarithmic(values: impl Iterator<Item = f64>, margin: f64, least: f64) -> Ax
     let (low, high) = range(values.map(f64::log10));
     let pad = (margin * (high - low)).max(0.5 * (least - (high - low)));
     Axis::logarithmic(10_f64.powf(low - pad), 10_f64.powf(high + pad))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_lines_can_be_told_apart() {
+        let pens: Vec<String> = (0..11).map(|series| format!("{:?}", pen(series, 7))).collect();
+        for (k, one) in pens.iter().enumerate() {
+            assert!(!pens[..k].contains(one), "{one}");
+        }
+    }
 }

@@ -21,15 +21,12 @@ use crate::run::equilibrium::Equilibrium;
 use crate::run::own_terms::OwnTerms;
 use crate::run::provenance::Provenance;
 use crate::run::record::{Record, StepLog, StopReason};
-use crate::run::scene::{Nodes, Scene};
+use crate::run::scene::Scene;
 use crate::run::schedule::frame_times;
 use crate::run::seconds::Seconds;
 use crate::run::setup::Setup;
 use crate::run::setup_error::SetupError;
 
-/// Part of the initial data that fixed nodes may miss, kinks, and of the tolerance if that is more, without a word.
-const MISSED: f64 = 1e-2;
-const MISSED_TOLERANCES: f64 = 10.0;
 /// Steps that are logged without allocating; beyond, the room doubles now and then.
 const STEP_ROOM: usize = 4096;
 
@@ -78,7 +75,7 @@ impl Simulation {
             gauges,
             mesh,
             adaptation,
-            missed,
+            misses_data,
             ..
         } = setup;
         let mut on = Discretised { membrane, diagnostics, mesh, remapped_at: 0, scratch: state };
@@ -131,8 +128,7 @@ impl Simulation {
             integration: Adaptive::new(stepper, options, energy, counters).measured_by(scale),
             gauges,
             adaptation,
-            misses_data: scene.accuracy.nodes != Nodes::Auto
-                && missed > MISSED.max(MISSED_TOLERANCES * scene.accuracy.tolerance),
+            misses_data,
             largest_distance,
             frame_room: FrameRoom::new(on.mesh.nodes),
             switches: 0,

@@ -88,12 +88,13 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
     }
 
     /// Factors whose product is the ratio of the symbols with mean coefficients, by second differences, with 𝓑 = Id unless it is that of
-    /// surface diffusion or holds the curve, to the right ones. Where the curvature follows densities, what a velocity makes of it
-    /// must be right, k² for k² by second differences, however stiff they are; alone it may be shared so that the band stays symmetric.
+    /// surface diffusion or holds the curve, to the right ones. Where the curvature follows densities that move, what a velocity makes of it
+    /// must be right, k² for k² by second differences, however stiff they are; else it is shared, so that the band stays symmetric.
     fn set_factors(&mut self, flow: &GradientFlow, gamma: f64) {
         let (nodes, modes, length) =
             (self.window.grid.nodes() as f64, self.window.grid.modes(), flow.symbol_length());
         let moves_freely = moves_freely(flow);
+        let follows = flow.carried_fields().count() + 1 < F;
         for field in 0..F {
             let mean = flow.energy_terms().convex_mean(field);
             let stiffness = flow.energy_terms().implicit_stiffness()[field];
@@ -109,9 +110,9 @@ impl<const F: usize, const B: usize> MaterialPart<F, B> {
                 };
                 let right = symbol(mobility_symbol(flow, field, exact, length), exact);
                 let ratio = symbol(band, difference) / right;
-                let column = match (F, field) {
-                    (1, _) => ratio.sqrt(),
-                    (_, 0) if exact > 0.0 => difference / exact,
+                let column = match field {
+                    _ if !follows => ratio.sqrt(),
+                    0 if exact > 0.0 => difference / exact,
                     _ => 1.0,
                 };
                 self.columns[field * modes + mode] = column;
