@@ -3,6 +3,7 @@
 use super::scene::{Frames, LinearSolver, Scene};
 use super::setup_error::SetupError;
 use crate::geometry::Layout;
+use crate::output::chunk_rows;
 
 /// Largest memory of all frames, in bytes.
 pub(super) const MOST_FRAME_BYTES: f64 = 16e9;
@@ -10,6 +11,7 @@ pub(super) const MOST_FRAME_BYTES: f64 = 16e9;
 const MOST_DENSE: usize = 4096;
 /// Curvature, metric, velocity and two coordinates.
 const FIELDS: usize = 5;
+const COORDINATES: usize = 2;
 /// Bytes of a file for its names and attributes, for the numbers of a frame and for a step of its log: no shipped scene takes more.
 const FILE_BYTES: f64 = 48e3;
 const NUMBERS_BYTES: f64 = 400.0;
@@ -20,9 +22,13 @@ pub(super) fn frame_bytes(frames: usize, layout: Layout, extra: usize) -> f64 {
     8.0 * frames as f64 * (layout.nodes() * (FIELDS + layout.densities() + extra)) as f64
 }
 
-/// Bytes of the result file of `scene` whose frames take `frame_bytes`, after `steps` steps.
-pub(super) fn file_bytes(scene: &Scene, frame_bytes: f64, steps: f64) -> f64 {
-    frame_bytes + NUMBERS_BYTES * frames(scene) as f64 + STEP_BYTES * steps + FILE_BYTES
+/// Bytes of the result file of `scene` on `layout`, with `extra` fields besides those that every frame holds, after `steps` steps.
+pub(super) fn file_bytes(scene: &Scene, layout: Layout, extra: usize, steps: f64) -> f64 {
+    let (frames, nodes) = (frames(scene), layout.nodes());
+    let stored = |row: usize| frames.next_multiple_of(chunk_rows(frames, row).max(1)) * row;
+    let of_nodes = FIELDS - COORDINATES + layout.densities() + extra;
+    let values = of_nodes * stored(nodes) + stored(COORDINATES * nodes) + nodes;
+    8.0 * values as f64 + NUMBERS_BYTES * frames as f64 + STEP_BYTES * steps + FILE_BYTES
 }
 
 /// Bytes of the matrix of a dense solver on `layout`; none for the others.

@@ -109,7 +109,7 @@ pub fn predict(scene: &Scene) -> Result<Prediction, SetupError> {
     let most_layout = Layout::new(most_nodes, layout.densities());
     let frames = frames(scene);
     let frame_bytes = frame_bytes(frames, most_layout, record.fields.len());
-    let file_bytes = file_bytes(scene, frame_bytes, steps * finer);
+    let file_bytes = file_bytes(scene, most_layout, record.fields.len(), steps * finer);
     let seconds_per_node =
         record.seconds[Spending::Frames] / (record.frames.len() * record.frames[0].curvature.len()) as f64;
     Ok(Prediction {

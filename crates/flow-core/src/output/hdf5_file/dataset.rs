@@ -7,10 +7,7 @@ use hdf5_metno::types::VarLenUnicode;
 use hdf5_metno::{Dataset, Extent, Group, H5Type, Location, SimpleExtents};
 
 use super::meanings::{self, Meaning};
-use crate::output::StorageError;
-
-/// Chunks hold about this many values: one read of 512 kB, yet a single frame is cheap.
-const CHUNK_VALUES: usize = 1 << 16;
+use crate::output::{StorageError, chunk_rows};
 
 /// A named dimension.
 pub(super) struct Axis {
@@ -90,9 +87,7 @@ fn empty<T: H5Type>(group: &Group, name: &str, shape: &[usize]) -> hdf5_metno::R
     let row: usize = shape.iter().skip(1).product();
     let mut chunk: Vec<usize> = shape.iter().map(|&n| n.max(1)).collect();
     if let Some(first) = chunk.first_mut() {
-        // Chunks of equal size: the last one would be padded to the size of the others.
-        let count = first.div_ceil((CHUNK_VALUES / row.max(1)).max(1));
-        *first = first.div_ceil(count);
+        *first = chunk_rows(*first, row);
     }
     group
         .new_dataset::<T>()
