@@ -3,7 +3,6 @@
 pub mod atomic_file;
 mod causes;
 pub mod checkpoint;
-mod chunks;
 mod drawn;
 #[cfg(feature = "hdf5")]
 pub mod hdf5_file;
@@ -18,5 +17,4 @@ mod storage_error;
 mod temporary;
 
 pub use causes::with_causes;
-pub(crate) use chunks::chunk_rows;
 pub use storage_error::{Operation, StorageError};

@@ -1,9 +1,9 @@
 //! What a run may ask for: more is refused before the memory is asked for.
 
+use super::chunks::chunk_rows;
 use super::scene::{Frames, LinearSolver, Scene};
 use super::setup_error::SetupError;
 use crate::geometry::Layout;
-use crate::output::chunk_rows;
 
 /// Largest memory of all frames, in bytes.
 pub(super) const MOST_FRAME_BYTES: f64 = 16e9;

@@ -3,6 +3,7 @@
 mod adaptation;
 mod assembly;
 mod choices;
+mod chunks;
 mod constant_energy;
 mod culprit;
 mod departure;
@@ -46,6 +47,7 @@ mod why_slow;
 
 pub use crate::integrator::{Counters, Rejections};
 pub use adaptation::ResolutionError;
+pub(crate) use chunks::chunk_rows;
 pub use culprit::Culprit;
 pub use equilibrium::Equilibrium;
 pub use evaluation::{Evaluation, EvaluationError, evaluate};

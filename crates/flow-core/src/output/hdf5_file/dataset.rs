@@ -7,7 +7,8 @@ use hdf5_metno::types::VarLenUnicode;
 use hdf5_metno::{Dataset, Extent, Group, H5Type, Location, SimpleExtents};
 
 use super::meanings::{self, Meaning};
-use crate::output::{StorageError, chunk_rows};
+use crate::output::StorageError;
+use crate::run::chunk_rows;
 
 /// A named dimension.
 pub(super) struct Axis {

@@ -1,4 +1,4 @@
-//! How files are cut into chunks.
+//! How result files are cut into chunks, which tells their size.
 
 /// Most values of a chunk, but for a single row: one read of 512 kB, yet a single frame is cheap.
 const MOST_VALUES: usize = 1 << 16;
