@@ -47,6 +47,7 @@ mod why_slow;
 
 pub use crate::integrator::{Counters, Rejections};
 pub use adaptation::ResolutionError;
+#[cfg(feature = "hdf5")]
 pub(crate) use chunks::chunk_rows;
 pub use culprit::Culprit;
 pub use equilibrium::Equilibrium;
