@@ -12,9 +12,6 @@ use crate::integrator::ENERGY_ROUNDING;
 /// within their bounds have lost it together. On the shipped scenes it is below two.
 const OUT_OF_BALANCE: f64 = 3.0;
 
-/// Name of the scene that a record holds.
-const RESOLVED: &str = "the scene of the result";
-
 /// A reason to doubt a result, with its numbers.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Doubt<'a> {
@@ -79,24 +76,25 @@ pub fn warnings(record: &Record) -> Vec<String> {
 
 /// What makes the result of `record` doubtful.
 pub(super) fn doubts(record: &Record) -> impl Iterator<Item = Doubt<'_>> {
-    [unresolved(record)].into_iter().chain(of_energy(record)).flatten()
+    // The scene of a file of another version may not be readable here.
+    let scene = Scene::parse(&record.resolved_scene, "the scene of the result").ok();
+    [unresolved(record, scene.as_ref())].into_iter().chain(of_energy(record, scene.as_ref())).flatten()
 }
 
 /// Of a run most of which its nodes did not resolve.
-fn unresolved(record: &Record) -> Option<Doubt<'_>> {
+fn unresolved(record: &Record, scene: Option<&Scene>) -> Option<Doubt<'static>> {
     let (unresolved, steps) = (record.counters.unresolved_steps, record.counters.steps);
-    let scene = || Scene::parse(&record.resolved_scene, RESOLVED);
-    let chosen = || scene().is_ok_and(|scene| scene.accuracy.nodes == Nodes::Auto);
-    (2 * unresolved > steps).then(|| Doubt::Unresolved { unresolved, steps, chosen: chosen() })
+    let chosen = scene.is_some_and(|scene| scene.accuracy.nodes == Nodes::Auto);
+    (2 * unresolved > steps).then_some(Doubt::Unresolved { unresolved, steps, chosen })
 }
 
 /// Of a run that has not lost the energy that it dissipated, or whose energy does not tell.
-fn of_energy(record: &Record) -> [Option<Doubt<'_>>; 2] {
-    let (Some(first), Some(last)) = (record.frames.first(), record.frames.last()) else { return [None; 2] };
-    // The scene of a file of another version may not be readable here.
-    let Ok(scene) = Scene::parse(&record.resolved_scene, RESOLVED) else { return [None; 2] };
+fn of_energy<'a>(record: &'a Record, scene: Option<&Scene>) -> [Option<Doubt<'a>>; 2] {
+    let (Some(first), Some(last), Some(scene)) = (record.frames.first(), record.frames.last(), scene) else {
+        return [None; 2];
+    };
     let tolerance = scene.accuracy.tolerance;
-    let scale = energy_scale(&scene, record);
+    let scale = energy_scale(scene, record);
     let largest = scale.of(first.energy).max(scale.of(last.energy));
     let part = (last.energy_balance - last.remap_error).abs() / largest;
     let rounding = ENERGY_ROUNDING * last.energy.abs() / largest;
